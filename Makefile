@@ -1,0 +1,134 @@
+# Everything a developer or a CI machine runs. `make test` needs python3 (3.9 to 3.13), a C compiler
+# (one dependency of OctoPrint 1.11 comes as source) and, for the browser tests, Debian's chromium.
+
+PYTHON ?= python3
+JOBS ?= 4
+DEMO_OCTOPRINT ?= 2.0
+PYTEST_ARGS ?=
+
+RELEASE_1.11 := 1.11.8
+RELEASE_2.0 := 2.0.0rc7
+
+VENV_1.11 := .venv/octoprint-1.11
+VENV_2.0 := .venv/octoprint-2.0
+READY := .venv/octoprint-1.11/.ready .venv/octoprint-2.0/.ready
+PLAIN := .venv/octoprint-1.11-plain/.ready .venv/octoprint-2.0-plain/.ready
+
+# what needs no OctoPrint runs once, in the first environment
+PURE := tests/rrf tests/simulator tests/test_layering.py
+
+# the tests mostly wait for servers, so that more of them than cores run side by side
+PYTEST := -m pytest -n $(JOBS) --dist loadgroup $(PYTEST_ARGS)
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_NO_INPUT := 1
+
+.DELETE_ON_ERROR:
+.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench demo translations environments clean
+
+help:
+	@echo "make test           lint, then the tests in OctoPrint $(RELEASE_1.11) and $(RELEASE_2.0)"
+	@echo "make test-1.11      the tests in OctoPrint $(RELEASE_1.11); test-2.0 likewise"
+	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9"
+	@echo "make lint           ruff and mypy; make format lets ruff put files in shape"
+	@echo "make bench          the measurements in tests/bench"
+	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000"
+	@echo "make translations   refresh messages.pot and the catalogues"
+	@echo "make clean          remove environments and what tools left behind"
+
+# Environments. The plain ones hold OctoPrint and nothing else: test_package installs into a copy of
+# them what a user would install.
+
+.venv/octoprint-%-plain/.ready: Makefile
+	@echo "installing OctoPrint $(RELEASE_$*) alone into $(@D)"
+	@rm -rf $(@D)
+	@$(PYTHON) -m venv $(@D)
+	@$(@D)/bin/python -m pip install --quiet octoprint==$(RELEASE_$*)
+	@touch $@
+
+.venv/octoprint-%/.installed: Makefile requirements-dev.txt
+	@echo "installing OctoPrint $(RELEASE_$*) and the test tools into $(@D)"
+	@rm -rf $(@D)
+	@$(PYTHON) -m venv $(@D)
+	@$(@D)/bin/python -m pip install --quiet octoprint==$(RELEASE_$*) --requirement requirements-dev.txt
+	@touch $@
+
+# metadata and entry points are copied at installation, all else is read from the work tree
+.venv/octoprint-%/.ready: .venv/octoprint-%/.installed pyproject.toml
+	@$(@D)/bin/python -m pip install --quiet --no-deps --editable .
+	@touch $@
+
+.PRECIOUS: .venv/octoprint-%/.installed
+
+environments:
+	@$(MAKE) --no-print-directory --jobs=2 $(READY) $(PLAIN)
+
+# Tests
+
+test: environments
+	@status=0; \
+	for step in lint test-1.11 test-2.0; do \
+		$(MAKE) --no-print-directory $$step || status=1; \
+	done; \
+	exit $$status
+
+test-1.11: .venv/octoprint-1.11/.ready .venv/octoprint-1.11-plain/.ready
+	@echo "tests in OctoPrint $(RELEASE_1.11)"
+	@$(VENV_1.11)/bin/python $(PYTEST)
+
+test-2.0: .venv/octoprint-2.0/.ready .venv/octoprint-2.0-plain/.ready
+	@echo "tests in OctoPrint $(RELEASE_2.0)"
+	@$(VENV_2.0)/bin/python $(PYTEST) $(PURE:%=--ignore=%)
+
+test-pure-py39: .venv/python-3.9/.ready
+	@.venv/python-3.9/bin/python $(PYTEST) $(PURE)
+
+.venv/python-3.9/.ready: Makefile requirements-dev.txt
+	@rm -rf $(@D)
+	@python3.9 -m venv $(@D)
+	@$(@D)/bin/python -m pip install --quiet --requirement requirements-dev.txt
+	@touch $@
+
+lint: .venv/octoprint-1.11/.ready
+	@$(VENV_1.11)/bin/python -m ruff check --quiet
+	@$(VENV_1.11)/bin/python -m ruff format --check --quiet
+	@$(VENV_1.11)/bin/python -m mypy
+
+format: .venv/octoprint-1.11/.ready
+	@$(VENV_1.11)/bin/python -m ruff check --quiet --fix
+	@$(VENV_1.11)/bin/python -m ruff format
+
+bench: .venv/octoprint-2.0/.ready
+	@status=0; \
+	for script in $(sort $(wildcard tests/bench/*.py)); do \
+		case $$script in */_*) continue ;; esac; \
+		module=$$(echo $${script%.py} | tr / .); \
+		echo "== $$script"; \
+		$(VENV_2.0)/bin/python -m $$module || status=1; \
+	done; \
+	exit $$status
+
+demo: .venv/octoprint-$(DEMO_OCTOPRINT)/.ready
+	@exec .venv/octoprint-$(DEMO_OCTOPRINT)/bin/python -m extras.demo
+
+# Translations. Sources lie in translations/, OctoPrint reads the copy inside the package.
+
+BABEL := $(VENV_2.0)/bin/python -m babel.messages.frontend
+LANGUAGES := $(notdir $(patsubst %/LC_MESSAGES/messages.po,%,$(wildcard translations/*/LC_MESSAGES/messages.po)))
+
+translations: .venv/octoprint-2.0/.ready
+	@$(BABEL) --quiet extract --mapping-file=babel.cfg --output-file=translations/messages.pot \
+		--project=OctoPrint-RRFModel --no-location --sort-output .
+	@for language in $(LANGUAGES); do \
+		$(BABEL) --quiet update --input-file=translations/messages.pot \
+			--output-dir=translations --locale=$$language && \
+		$(BABEL) --quiet compile --directory=translations --locale=$$language && \
+		mkdir -p octoprint_rrfmodel/translations/$$language/LC_MESSAGES && \
+		cp translations/$$language/LC_MESSAGES/messages.* \
+			octoprint_rrfmodel/translations/$$language/LC_MESSAGES/ || exit 1; \
+	done
+
+clean:
+	rm -rf .venv .demo .artifacts .hypothesis .mypy_cache .pytest_cache .ruff_cache build dist
+	rm -rf *.egg-info
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
