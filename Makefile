@@ -43,19 +43,19 @@ help:
 	@echo "installing OctoPrint $(RELEASE_$*) alone into $(@D)"
 	@rm -rf $(@D)
 	@$(PYTHON) -m venv $(@D)
-	@$(@D)/bin/python -m pip install --quiet octoprint==$(RELEASE_$*)
+	@$(@D)/bin/python -m pip install -qq octoprint==$(RELEASE_$*)
 	@touch $@
 
 .venv/octoprint-%/.installed: Makefile requirements-dev.txt
 	@echo "installing OctoPrint $(RELEASE_$*) and the test tools into $(@D)"
 	@rm -rf $(@D)
 	@$(PYTHON) -m venv $(@D)
-	@$(@D)/bin/python -m pip install --quiet octoprint==$(RELEASE_$*) --requirement requirements-dev.txt
+	@$(@D)/bin/python -m pip install -qq octoprint==$(RELEASE_$*) --requirement requirements-dev.txt
 	@touch $@
 
 # metadata and entry points are copied at installation, all else is read from the work tree
 .venv/octoprint-%/.ready: .venv/octoprint-%/.installed pyproject.toml
-	@$(@D)/bin/python -m pip install --quiet --no-deps --editable .
+	@$(@D)/bin/python -m pip install -qq --no-deps --editable .
 	@touch $@
 
 .PRECIOUS: .venv/octoprint-%/.installed
@@ -86,7 +86,7 @@ test-pure-py39: .venv/python-3.9/.ready
 .venv/python-3.9/.ready: Makefile requirements-dev.txt
 	@rm -rf $(@D)
 	@python3.9 -m venv $(@D)
-	@$(@D)/bin/python -m pip install --quiet --requirement requirements-dev.txt
+	@$(@D)/bin/python -m pip install -qq --requirement requirements-dev.txt
 	@touch $@
 
 lint: .venv/octoprint-1.11/.ready

@@ -1,0 +1,1 @@
+"""The test bench: real OctoPrint servers, their users, their push messages and a browser."""

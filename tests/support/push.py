@@ -1,0 +1,82 @@
+"""What OctoPrint pushes to a browser, collected from its websocket."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import threading
+from typing import Any, Callable
+
+import websocket
+
+from .basedir import User
+from .server import OctoPrintServer
+from .waiting import wait_for
+
+PLUGIN = "rrfmodel"
+
+
+class PushListener:
+    """A context manager that collects push messages as a logged-in user, or as nobody.
+
+    ``messages`` holds ``(type, payload)`` in the order of arrival; types are OctoPrint's, such as
+    ``current``, ``event`` and ``plugin``.
+    """
+
+    def __init__(self, server: OctoPrintServer, user: User | None) -> None:
+        self.messages: list[tuple[str, Any]] = []
+        self._server = server
+        self._user = user
+        self._socket = websocket.WebSocket()
+        self._thread = threading.Thread(target=self._collect, daemon=True)
+
+    def __enter__(self) -> PushListener:
+        url = self._server.url.replace("http", "ws", 1) + "/sockjs/websocket"
+        self._socket.connect(url, timeout=30)
+        if self._user is not None:
+            with self._server.client() as client:
+                login = client.log_in(self._user)
+            self._socket.send(json.dumps({"auth": f"{login['name']}:{login['session']}"}))
+        self._socket.settimeout(None)
+        self._thread.start()
+        wait_for(lambda: self.messages, 10, "the first push message")
+        return self
+
+    def __exit__(self, *exc_info: object) -> None:
+        self._socket.shutdown()
+        self._thread.join(5)
+
+    def _collect(self) -> None:
+        # a closed socket is how listening ends
+        with contextlib.suppress(websocket.WebSocketException, OSError):
+            while True:
+                text = self._socket.recv()
+                if not text:
+                    return
+                self.messages.extend(json.loads(text).items())
+
+    def of_plugin(self, plugin: str = PLUGIN) -> list[Any]:
+        """Return the payloads that the plugin sent, in order."""
+        return [
+            payload["data"]
+            for kind, payload in list(self.messages)
+            if kind == "plugin" and payload["plugin"] == plugin
+        ]
+
+    def events(self, name: str | None = None) -> list[Any]:
+        """Return the payloads of OctoPrint's events of that name, or of all events with theirs."""
+        events = [payload for kind, payload in list(self.messages) if kind == "event"]
+        if name is None:
+            return [(event["type"], event["payload"]) for event in events]
+        return [event["payload"] for event in events if event["type"] == name]
+
+    def wait_for_plugin(
+        self, predicate: Callable[[Any], bool], timeout: float = 10, what: str = "a push message"
+    ) -> Any:
+        """Return the plugin's first payload that the predicate accepts, old ones included."""
+        return wait_for(lambda: next(filter(predicate, self.of_plugin()), None), timeout, what)
+
+    def wait_for_event(self, name: str, timeout: float = 10) -> Any:
+        """Return the payload of the first event of that name; ``None`` becomes an empty dictionary."""
+        found = wait_for(lambda: self.events(name), timeout, f"the event {name}")
+        return found[0] or {}
