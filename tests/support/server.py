@@ -133,21 +133,21 @@ class OctoPrintServer:
         return self._text("logs/octoprint.log")
 
     def serial_log(self) -> str:
-        """Return serial.log as it is now: 1.11 writes ``Send:`` and ``Recv:``, 2.0 ``>>>`` and ``<<<``."""
+        """Return serial.log as it is now; its marks of direction differ between the versions."""
         return self._text("logs/serial.log")
 
     def sent(self) -> list[str]:
-        """Return the lines that went out on the serial port since the first connection, in order."""
+        """Return the lines that went out on the serial port, in order."""
         return self._serial_lines("Send: ", ">>> ")
 
     def received(self) -> list[str]:
-        """Return the lines that came in from the serial port since the first connection, in order."""
+        """Return the lines that came in from the serial port, in order."""
         return self._serial_lines("Recv: ", "<<< ")
 
     def _serial_lines(self, *markers: str) -> list[str]:
         lines = []
         for line in self.serial_log().splitlines():
-            # date and time come first, then the marker of the direction
+            # date and time come first; 1.11 and 2.0 mark the direction in different ways
             for marker in markers:
                 _, found, text = line.partition(f" - {marker}")
                 if found:

@@ -11,7 +11,7 @@ POLL_SECONDS = 0.05
 
 
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:
-    """Return the predicate's first true value; an AssertionError names ``what`` after ``timeout`` s."""
+    """Return the predicate's first true value; after ``timeout`` seconds AssertionError names what."""
     deadline = time.monotonic() + timeout
     while True:
         value = predicate()
