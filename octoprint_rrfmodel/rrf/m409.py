@@ -52,8 +52,8 @@ def parse_flags(text: str) -> Flags:
     numbers: dict[str, int] = {}
     for match in _LETTER.finditer(text):
         if match[1]:
-            # the tail is enough: the firmware's number wraps at 32 bits anyway
-            numbers[match[1]] = int(match[2][-4000:] or "0") % _UNSIGNED
+            # the number wraps at 32 bits, and 10**32 is a multiple of 2**32
+            numbers[match[1]] = int(match[2][-32:] or "0") % _UNSIGNED
         else:
             letters.add(match[0])
     return Flags(

@@ -1,0 +1,68 @@
+"""Where in a received line the board's JSON is; nothing is decoded here unless it must be.
+
+Messages without a line end of their own glue to the next line, before or behind the JSON
+(RepRapFirmware 3.5 Platform.cpp:1396, FileStore.cpp:78), so a line is searched, not compared.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import NamedTuple
+
+MODEL_REPLY = '{"key":'
+NO_BUFFERS = '{"err":-1}'
+STATUS_REPLY = '{"status":'
+CONFIG_REPLY = '{"axisMins":'
+
+REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY)
+"""How M409, M408 S0..S4, a reply short of buffers, and M408 S5 begin."""
+
+_SCAN = json.JSONDecoder(strict=False).scan_once
+
+
+class Found(NamedTuple):
+    """A reply in a line, and what stands around it."""
+
+    reply: str
+    """The JSON text, or as much of it as has come."""
+    rest: str
+    """The line without it, stripped; a glued ``ok`` comes first. Empty for a whole line."""
+
+
+def find_reply(line: str) -> Found | None:
+    """Return the board's JSON in ``line``, or ``None`` where there is none.
+
+    ``'Warning: VIN under-voltage event (11.0V){"key":"","flags":"f","result":{}}\\n'`` gives the
+    object as ``reply`` and the warning as ``rest``. A reply that was cut off reaches to the end
+    of the line, except for an ``ok`` that stands there: that one is OctoPrint's.
+    """
+    start = _start(line)
+    if start < 0:
+        return None
+    text = line[start:].rstrip()
+    before = line[:start].strip("\0 \t\r\n")
+    if not before and text[-1] == "}" and text.count('{"key":') < 2:
+        return Found(text, "")
+    end = _end(text)
+    after = text[end:].strip("\0 \t")
+    if after.startswith("ok"):
+        rest = f"{after} {before}" if before else after
+    else:
+        rest = f"{before} {after}" if before and after else before or after
+    return Found(text[:end], rest)
+
+
+def _start(line: str) -> int:
+    """Return where the first reply of a line starts, -1 where none does."""
+    if line.startswith(REPLY_STARTS):
+        return 0
+    starts = [start for start in map(line.find, REPLY_STARTS) if start >= 0]
+    return min(starts, default=-1)
+
+
+def _end(text: str) -> int:
+    """Return where the object that ``text`` starts with ends; for a cut one, where all ends."""
+    try:
+        return _SCAN(text, 0)[1]
+    except (StopIteration, ValueError, RecursionError):
+        return len(text) - 2 if text.endswith("ok") else len(text)

@@ -1,0 +1,153 @@
+"""Replies laid over a model, by RepRapFirmware's patch rules, copy-on-write.
+
+No value that is handed in is changed. What did not change is the very same object in the
+result, so a reader who kept a snapshot has a consistent one, and ``is`` tells whether a subtree
+changed.
+
+A merge's outcome is a pair: the value, and what changed in it. ``None`` as the second says that
+nothing did; the value is then the old one itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Iterator, Tuple, Union
+
+DEEPEST = 40
+"""Levels of nesting taken into a model; firmware and user variables stay below 15."""
+
+Changes = Union[bool, Dict[Union[str, int], Any]]
+"""``True`` for a value that changed as a whole, else member or index to its own changes."""
+
+Merged = Tuple[Any, Union[Changes, None]]
+
+_MISSING = object()
+
+
+class NestedTooDeep(ValueError):
+    """A value has more levels than any model; it is not taken."""
+
+
+def patched(old: Any, new: Any) -> Merged:
+    """Return ``old`` with a live reply laid over it; members that it lacks stay.
+
+    A shorter list cuts the tail off, a longer one appends, elements in both are patched
+    (Duet3D/ObjectModel, ModelCollection.update). ``null`` is a value.
+    """
+    return _merged(old, new, True, DEEPEST)
+
+
+def replaced(old: Any, new: Any) -> Merged:
+    """Return ``new``, sharing with ``old`` whatever is equal; members that it lacks go."""
+    return _merged(old, new, False, DEEPEST)
+
+
+def _merged(old: Any, new: Any, keep: bool, levels: int) -> Merged:
+    kind = type(new)
+    if kind is dict and type(old) is dict:
+        return _merged_object(old, new, keep, levels)
+    if kind is list and type(old) is list:
+        return _merged_list(old, new, keep, levels)
+    if old == new and (type(old) is bool) is (kind is bool):
+        return old, None
+    _measure(new, levels)
+    return new, True
+
+
+def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels: int) -> Merged:
+    if levels <= 0:
+        raise NestedTooDeep("objects nested deeper than any model")
+    values = None
+    for name, value in new.items():
+        before = old.get(name, _MISSING)
+        kind = type(value)
+        if kind is dict and type(before) is dict:
+            value, change = _merged_object(before, value, keep, levels - 1)
+            if change is None:
+                continue
+        elif kind is list and type(before) is list:
+            value, change = _merged_list(before, value, keep, levels - 1)
+            if change is None:
+                continue
+        # 0 is 0.0 (the firmware prints a zero without decimals), but true is not 1
+        elif value == before and (kind is bool) is (type(before) is bool):
+            continue
+        else:
+            if kind is dict or kind is list:
+                _measure(value, levels)
+            change = True
+        if values is None:
+            values, changes = old.copy(), {}
+        values[name] = value
+        changes[name] = change
+    if keep:
+        return (old, None) if values is None else (values, changes)
+    gone = old.keys() - new.keys()
+    if values is None:
+        if not gone:
+            return old, None
+        values, changes = old, {}
+    changes.update(dict.fromkeys(gone, True))
+    # in the reply's own order: that of the firmware's table
+    return {name: values[name] for name in new}, changes
+
+
+def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Merged:
+    if levels <= 0:
+        raise NestedTooDeep("lists nested deeper than any model")
+    values = None
+    for index, (before, value) in enumerate(zip(old, new)):
+        kind = type(value)
+        if kind is dict and type(before) is dict:
+            value, change = _merged_object(before, value, keep, levels - 1)
+            if change is None:
+                continue
+        elif kind is list and type(before) is list:
+            value, change = _merged_list(before, value, keep, levels - 1)
+            if change is None:
+                continue
+        elif value == before and (kind is bool) is (type(before) is bool):
+            continue
+        else:
+            if kind is dict or kind is list:
+                _measure(value, levels)
+            change = True
+        if values is None:
+            values, changes = old[:], {}
+        values[index] = value
+        changes[index] = change
+    if len(new) != len(old):
+        if values is None:
+            values, changes = old[:], {}
+        common = min(len(old), len(new))
+        _measure(new[common:], levels)
+        values[common:] = new[common:]
+        changes.update(dict.fromkeys(range(common, max(len(old), len(new))), True))
+    return (old, None) if values is None else (values, changes)
+
+
+def _measure(value: Any, levels: int) -> None:
+    """Raise ``NestedTooDeep`` where a value has more than ``levels`` levels."""
+    row = [value]
+    while row:
+        if levels < 0:
+            raise NestedTooDeep("values nested deeper than any model")
+        below: list[Any] = []
+        for item in row:
+            if type(item) is dict:
+                below.extend(item.values())
+            elif type(item) is list:
+                below.extend(item)
+        row = below
+        levels -= 1
+
+
+def paths(changes: Changes | None, prefix: str = "") -> Iterator[str]:
+    """Yield the path of every value that changed, ``heat.heaters[0].current``."""
+    if changes is True:
+        yield prefix
+    elif changes:
+        for step, below in changes.items():  # type: ignore[union-attr]
+            if isinstance(step, int):
+                yield from paths(below, f"{prefix}[{step}]")
+            else:
+                yield from paths(below, f"{prefix}.{step}" if prefix else step)

@@ -1,0 +1,101 @@
+"""A reply's text turned into values: ``M409``, ``M408`` and the one that means "no buffers"."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from typing import Any, NamedTuple
+
+from .line import MODEL_REPLY, NO_BUFFERS
+
+
+class MalformedReply(ValueError):
+    """A text that starts like a reply and is none; says what is wrong and where."""
+
+
+class ModelReply(NamedTuple):
+    """An answer to ``M409``."""
+
+    key: str
+    flags: str | None
+    """As echoed; ``None`` in SBC mode, where ``network`` and ``volumes`` come without."""
+    result: Any
+    next: int
+    """Element to go on with, 0 where the array is complete or the result is no array."""
+
+
+class StatusReply(NamedTuple):
+    """An answer to ``M408``: its members as they came."""
+
+    fields: dict[str, Any]
+
+
+class NoBuffers(NamedTuple):
+    """The board had no room for the answer; it names no key (3.5 GCodes2.cpp:3154)."""
+
+
+_LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"|-?\b(?:nan|inf)\b')
+"""A string, or one of the words that M408 prints for a number that is none."""
+
+_HUGE = re.compile(r"[0-9][eE]\+?[0-9]{3}")
+"""An exponent that may leave the range of a float."""
+
+
+def _finite(text: str) -> float | None:
+    value = float(text)
+    return value if math.isfinite(value) else None
+
+
+def _no_number(_text: str) -> None:
+    return None
+
+
+_DECODER = json.JSONDecoder(parse_constant=_no_number)
+_CAREFUL_DECODER = json.JSONDecoder(parse_constant=_no_number, parse_float=_finite)
+
+scan_value = _DECODER.scan_once
+"""``(text, start) -> (value, end)``; raises ``StopIteration`` or ``ValueError``."""
+
+
+def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
+    """Return what a reply says; raise ``MalformedReply`` for a text that can't be read.
+
+    >>> decode('{"key":"#tools","flags":"","result":2}')
+    ModelReply(key='#tools', flags='', result=2, next=0)
+    """
+    if text == NO_BUFFERS:
+        return NoBuffers()
+    members = _members(text)
+    if not text.startswith(MODEL_REPLY):
+        return StatusReply(members)
+    key, flags = members.get("key"), members.get("flags")
+    start = members.get("next", 0)
+    if (
+        type(key) is not str
+        or "result" not in members
+        or (flags is not None and type(flags) is not str)
+        or type(start) is not int
+    ):
+        raise MalformedReply(f"no envelope of an M409 reply: {text[:80]!r}")
+    return ModelReply(key, flags, members["result"], start)
+
+
+def _members(text: str) -> dict[str, Any]:
+    decoder = _CAREFUL_DECODER if _HUGE.search(text) else _DECODER
+    try:
+        try:
+            members = decoder.decode(text)
+        except ValueError:
+            if "nan" not in text and "inf" not in text:
+                raise
+            members = decoder.decode(_LITERAL.sub(_null_for_word, text))
+    except (ValueError, RecursionError) as error:
+        raise MalformedReply(f"{error}: {text[:80]!r}") from None
+    if type(members) is not dict:
+        raise MalformedReply(f"no object: {text[:80]!r}")
+    return members
+
+
+def _null_for_word(match: re.Match[str]) -> str:
+    return match[0] if match[0][0] == '"' else "null"
