@@ -7,7 +7,7 @@ Messages without a line end of their own glue to the next line, before or behind
 from __future__ import annotations
 
 import json
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 MODEL_REPLY = '{"key":'
 NO_BUFFERS = '{"err":-1}'
@@ -17,7 +17,7 @@ CONFIG_REPLY = '{"axisMins":'
 REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY)
 """How M409, M408 S0..S4, a reply short of buffers, and M408 S5 begin."""
 
-_SCAN = json.JSONDecoder(strict=False).scan_once
+_SCAN: Any = json.JSONDecoder(strict=False).scan_once  # type: ignore[attr-defined]
 
 
 class Found(NamedTuple):
@@ -63,6 +63,7 @@ def _start(line: str) -> int:
 def _end(text: str) -> int:
     """Return where the object that ``text`` starts with ends; for a cut one, where all ends."""
     try:
-        return _SCAN(text, 0)[1]
+        end: int = _SCAN(text, 0)[1]
+        return end
     except (StopIteration, ValueError, RecursionError):
         return len(text) - 2 if text.endswith("ok") else len(text)

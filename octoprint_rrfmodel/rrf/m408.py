@@ -8,7 +8,8 @@ whole. They are collected, and the model is built from all of them by the rows o
 from __future__ import annotations
 
 import re
-from typing import Any, Iterator, Mapping
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from .m408_table import CONFIG_FIELDS, LEGACY, STATUS_FIELDS, Row
 from .merge import patched

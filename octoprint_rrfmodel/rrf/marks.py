@@ -11,7 +11,7 @@ GCodeBuffer.cpp, MassStorage.cpp, EndstopsManager.cpp and the files they include
 
 from __future__ import annotations
 
-from typing import Mapping
+from collections.abc import Mapping
 
 SIGNS = {"*": "live", "!": "important", "+": "verbose", "-": "obsolete"}
 """Suffix sign in ``TABLE`` to the mark it stands for."""

@@ -10,15 +10,16 @@ nothing did; the value is then the old one itself.
 
 from __future__ import annotations
 
-from typing import Any, Dict, Iterator, Tuple, Union
+from collections.abc import Iterator
+from typing import Any, Union
 
 DEEPEST = 40
 """Levels of nesting taken into a model; firmware and user variables stay below 15."""
 
-Changes = Union[bool, Dict[Union[str, int], Any]]
+Changes = Union[bool, dict[Union[str, int], Any]]
 """``True`` for a value that changed as a whole, else member or index to its own changes."""
 
-Merged = Tuple[Any, Union[Changes, None]]
+Merged = tuple[Any, Union[Changes, None]]
 
 _MISSING = object()
 
@@ -57,6 +58,7 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
     if levels <= 0:
         raise NestedTooDeep("objects nested deeper than any model")
     values = None
+    changes: dict[str | int, Any] = {}
     for name, value in new.items():
         before = old.get(name, _MISSING)
         kind = type(value)
@@ -76,7 +78,7 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
                 _measure(value, levels)
             change = True
         if values is None:
-            values, changes = old.copy(), {}
+            values = old.copy()
         values[name] = value
         changes[name] = change
     if keep:
@@ -85,7 +87,7 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
     if values is None:
         if not gone:
             return old, None
-        values, changes = old, {}
+        values = old
     changes.update(dict.fromkeys(gone, True))
     # in the reply's own order: that of the firmware's table
     return {name: values[name] for name in new}, changes
@@ -95,6 +97,7 @@ def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Mer
     if levels <= 0:
         raise NestedTooDeep("lists nested deeper than any model")
     values = None
+    changes: dict[str | int, Any] = {}
     for index, (before, value) in enumerate(zip(old, new)):
         kind = type(value)
         if kind is dict and type(before) is dict:
@@ -112,12 +115,12 @@ def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Mer
                 _measure(value, levels)
             change = True
         if values is None:
-            values, changes = old[:], {}
+            values = old[:]
         values[index] = value
         changes[index] = change
     if len(new) != len(old):
         if values is None:
-            values, changes = old[:], {}
+            values = old[:]
         common = min(len(old), len(new))
         _measure(new[common:], levels)
         values[common:] = new[common:]
@@ -146,7 +149,7 @@ def paths(changes: Changes | None, prefix: str = "") -> Iterator[str]:
     if changes is True:
         yield prefix
     elif changes:
-        for step, below in changes.items():  # type: ignore[union-attr]
+        for step, below in changes.items():
             if isinstance(step, int):
                 yield from paths(below, f"{prefix}[{step}]")
             else:

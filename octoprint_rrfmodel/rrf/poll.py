@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from .fetch import Fetch
 from .reply import ModelReply
@@ -158,12 +159,11 @@ class ModelPlan:
                 return True
             self._up_time = up_time
         counters = model.get(SEQS)
-        if self._keys is not None and isinstance(counters, dict):
-            if counters is not self._counters:
-                self._counters = counters
-                for key in self._keys:
-                    if key in self._asked and self._asked[key] != self._counter(key):
-                        self._want(key)
+        if isinstance(counters, dict) and counters is not self._counters:
+            self._counters = counters
+            for key in self._keys or ():
+                if key in self._asked and self._asked[key] != self._counter(key):
+                    self._want(key)
         return False
 
     def refetch(self, key: str = "") -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any, cast
 
 from .merge import Changes, patched, replaced
 
@@ -55,7 +56,7 @@ class ModelStore:
             return {}
         self.model = value
         self.revision += 1
-        return changes if isinstance(changes, dict) else {}
+        return cast("dict[str, Any]", changes)
 
 
 def _put(tree: Any, names: list[str], value: Any) -> dict[str, Any]:
