@@ -6,9 +6,6 @@ JOBS ?= 4
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 
-RELEASE_1.11 := 1.11.8
-RELEASE_2.0 := 2.0.0rc7
-
 VENV_1.11 := .venv/octoprint-1.11
 VENV_2.0 := .venv/octoprint-2.0
 READY := .venv/octoprint-1.11/.ready .venv/octoprint-2.0/.ready
@@ -27,8 +24,8 @@ export PIP_NO_INPUT := 1
 .PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench demo translations environments clean
 
 help:
-	@echo "make test           lint, then the tests in OctoPrint $(RELEASE_1.11) and $(RELEASE_2.0)"
-	@echo "make test-1.11      the tests in OctoPrint $(RELEASE_1.11); test-2.0 likewise"
+	@echo "make test           lint, then the tests in OctoPrint 1.11 and 2.0"
+	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9"
 	@echo "make lint           ruff and mypy; make format lets ruff put files in shape"
 	@echo "make bench          the measurements in tests/bench"
@@ -37,20 +34,20 @@ help:
 	@echo "make clean          remove environments and what tools left behind"
 
 # Environments. The plain ones hold OctoPrint and nothing else: test_package installs into a copy of
-# them what a user would install.
+# them what a user would install. They are made anew when what they should hold changes.
 
-.venv/octoprint-%-plain/.ready: Makefile
-	@echo "installing OctoPrint $(RELEASE_$*) alone into $(@D)"
+.venv/octoprint-%-plain/.ready: requirements/octoprint-%.txt
+	@echo "installing OctoPrint $* alone into $(@D)"
 	@rm -rf $(@D)
 	@$(PYTHON) -m venv $(@D)
-	@$(@D)/bin/python -m pip install -qq octoprint==$(RELEASE_$*)
+	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
-.venv/octoprint-%/.installed: Makefile requirements-dev.txt
-	@echo "installing OctoPrint $(RELEASE_$*) and the test tools into $(@D)"
+.venv/octoprint-%/.installed: requirements/octoprint-%.txt requirements/dev.txt
+	@echo "installing OctoPrint $* and the test tools into $(@D)"
 	@rm -rf $(@D)
 	@$(PYTHON) -m venv $(@D)
-	@$(@D)/bin/python -m pip install -qq octoprint==$(RELEASE_$*) --requirement requirements-dev.txt
+	@$(@D)/bin/python -m pip install -qq $(^:%=--requirement=%)
 	@touch $@
 
 # metadata and entry points are copied at installation, all else is read from the work tree
@@ -73,20 +70,20 @@ test: environments
 	exit $$status
 
 test-1.11: .venv/octoprint-1.11/.ready .venv/octoprint-1.11-plain/.ready
-	@echo "tests in OctoPrint $(RELEASE_1.11)"
+	@echo "tests in OctoPrint 1.11"
 	@$(VENV_1.11)/bin/python $(PYTEST)
 
 test-2.0: .venv/octoprint-2.0/.ready .venv/octoprint-2.0-plain/.ready
-	@echo "tests in OctoPrint $(RELEASE_2.0)"
+	@echo "tests in OctoPrint 2.0"
 	@$(VENV_2.0)/bin/python $(PYTEST) $(PURE:%=--ignore=%)
 
 test-pure-py39: .venv/python-3.9/.ready
 	@.venv/python-3.9/bin/python $(PYTEST) $(PURE)
 
-.venv/python-3.9/.ready: Makefile requirements-dev.txt
+.venv/python-3.9/.ready: requirements/dev.txt
 	@rm -rf $(@D)
 	@python3.9 -m venv $(@D)
-	@$(@D)/bin/python -m pip install -qq --requirement requirements-dev.txt
+	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
 lint: .venv/octoprint-1.11/.ready

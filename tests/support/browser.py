@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .basedir import User
-from .server import OctoPrintServer
+if TYPE_CHECKING:
+    from .basedir import User
+    from .server import OctoPrintServer
 
 CHROMIUM = Path("/usr/bin/chromium")
 

@@ -77,6 +77,6 @@ class PushListener:
         return wait_for(lambda: next(filter(predicate, self.of_plugin()), None), timeout, what)
 
     def wait_for_event(self, name: str, timeout: float = 10) -> Any:
-        """Return the payload of the first event of that name, an empty dictionary if it has none."""
+        """Return the payload of the first event of that name; an empty one is a dictionary."""
         found = wait_for(lambda: self.events(name), timeout, f"the event {name}")
         return found[0] or {}

@@ -12,7 +12,7 @@ from typing import Any, Callable, TypeVar
 import requests
 
 from . import guard, ports, waiting
-from .basedir import ADMIN, User, configuration, write_basedir
+from .basedir import USERS, User, configuration, write_basedir
 from .client import Client
 
 T = TypeVar("T")
@@ -30,7 +30,8 @@ class OctoPrintServer:
 
     ``ports_glob`` is where the server looks for serial ports besides the machine's own; ``python``
     is the interpreter that has OctoPrint ``version``, by default the one that runs the tests. The
-    other options are those of ``basedir.configuration`` and ``basedir.write_basedir``.
+    first of ``users`` is the one in whose name the methods act. The other options are those of
+    ``basedir.configuration`` and ``basedir.write_basedir``.
     """
 
     def __init__(
@@ -44,18 +45,20 @@ class OctoPrintServer:
         settings: dict[str, Any] | None = None,
         profile: dict[str, Any] | None = None,
         environment: dict[str, str] | None = None,
+        users: tuple[User, ...] = USERS,
+        port: int | None = None,
         python: str = sys.executable,
         version: str | None = None,
     ) -> None:
         self.basedir = basedir
         self.version = version or distribution_version("OctoPrint")
-        self.port = ports.free_port()
+        self.port = port or ports.free_port()
         self.url = f"http://127.0.0.1:{self.port}"
-        self.api_key = ADMIN.api_key
+        self.api_key = users[0].api_key
         self._python = python
         self._environment = environment or {}
         self._process: subprocess.Popen[bytes] | None = None
-        self._admin = self.client(ADMIN)
+        self._admin = self.client(users[0])
         if ports_glob is not None:
             serial = {"additionalPorts": [ports_glob], **(serial or {})}
         config = configuration(
@@ -65,7 +68,7 @@ class OctoPrintServer:
             autoconnect=autoconnect,
             settings=settings,
         )
-        write_basedir(basedir, config, profile=profile)
+        write_basedir(basedir, config, users=users, profile=profile)
 
     # life cycle
 
@@ -110,15 +113,15 @@ class OctoPrintServer:
         process.wait()
         self._admin.close()
 
+    def wait(self) -> None:
+        """Return when the process has ended by itself."""
+        assert self._process is not None
+        self._process.wait()
+
     def restart(self) -> OctoPrintServer:
         """Return the server, stopped and started again on the same base folder and port."""
         self.stop()
         return self.start()
-
-    @property
-    def running(self) -> bool:
-        """Whether the process is there."""
-        return self._process is not None and self._process.poll() is None
 
     def __enter__(self) -> OctoPrintServer:
         return self.start()

@@ -11,7 +11,7 @@ POLL_SECONDS = 0.05
 
 
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:
-    """Return the predicate's first true value; after ``timeout`` seconds AssertionError names what."""
+    """Return the predicate's first true value; AssertionError with ``what`` when time is up."""
     deadline = time.monotonic() + timeout
     while True:
         value = predicate()
