@@ -71,10 +71,16 @@ class PushListener:
         return [event["payload"] for event in events if event["type"] == name]
 
     def wait_for_plugin(
-        self, predicate: Callable[[Any], bool], timeout: float = 10, what: str = "a push message"
+        self,
+        predicate: Callable[[Any], bool],
+        timeout: float = 10,
+        what: str = "a push message",
+        plugin: str = PLUGIN,
     ) -> Any:
         """Return the plugin's first payload that the predicate accepts, old ones included."""
-        return wait_for(lambda: next(filter(predicate, self.of_plugin()), None), timeout, what)
+        return wait_for(
+            lambda: next(filter(predicate, self.of_plugin(plugin)), None), timeout, what
+        )
 
     def wait_for_event(self, name: str, timeout: float = 10) -> Any:
         """Return the payload of the first event of that name; an empty one is a dictionary."""
