@@ -1,0 +1,66 @@
+"""The HTTP endpoints that answer from what is known; none of them waits for the printer."""
+
+import flask
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+
+from .rrf import m409
+from .rrf.request import FLAGS_LENGTH, KEY_LENGTH
+
+
+def refusal(status, text):
+    """Return an answer that says, in one sentence, what a person can do about it."""
+    return flask.make_response(flask.jsonify(error=text), status)
+
+
+def may_read():
+    """Return whether the user of this request may read the model."""
+    return Permissions.PLUGIN_RRFMODEL_READ.can()
+
+
+class ModelApi:
+    """Answers requests from the cached model and the plugin's state.
+
+    ``model()`` is the snapshot, ``status()`` the state.
+    """
+
+    def __init__(self, model, status):
+        self._model = model
+        self._status = status
+
+    def get_status(self):
+        """Return the plugin's state."""
+        if not may_read():
+            return refusal(403, gettext("You may not read the machine's model."))
+        return flask.jsonify(self._status())
+
+    def get_model(self, arguments):
+        """Return what M409 would answer to the key and flags asked for."""
+        if not may_read():
+            return refusal(403, gettext("You may not read the machine's model."))
+        model = self._model()
+        if not model:
+            return refusal(503, self.why_empty())
+        key = arguments.get("key", "")
+        flags = arguments.get("flags", "")
+        return flask.jsonify(m409.answer(model, key, flags))
+
+    def why_empty(self):
+        """Return why no model is known."""
+        status = self._status()
+        if not status["connected"]:
+            return gettext("No printer is connected, so no model is known. Connect it first.")
+        if not status["is_rrf"]:
+            return gettext("The connected printer has not said that it runs RepRapFirmware.")
+        return gettext("The printer has not told its model yet. Try again in a few seconds.")
+
+
+def length_error(key, flags):
+    """Return why a key and flags can't be sent to the printer, ``None`` where they can."""
+    if len(key) > KEY_LENGTH:
+        return gettext("The key is longer than the 100 characters that the firmware takes.")
+    if len(flags) > FLAGS_LENGTH:
+        return gettext("The flags are longer than the 20 characters that the firmware takes.")
+    if not (key + flags).isprintable() or not (key + flags).isascii():
+        return gettext("Key and flags may hold only printable ASCII characters.")
+    return None

@@ -1,0 +1,71 @@
+"""``GET /plugin/rrfmodel/model/live``: the printer itself is asked, on Tornado's loop."""
+
+import asyncio
+
+import tornado.web
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+from octoprint.server.util.flask import permission_validator
+from octoprint.server.util.tornado import access_validation_factory
+
+from .api import length_error
+from .polling import TooManyQueries
+
+WAIT_SECONDS = 10.0
+
+
+class LiveModelHandler(tornado.web.RequestHandler):
+    """Asks the printer for a key and returns what it answered; never holds a Flask thread.
+
+    ``query(key, flags)`` gives a future. ``refusal()`` gives the reason why the printer can't be
+    asked now, ``None`` where it can. ``app`` is OctoPrint's Flask application, which knows users.
+    """
+
+    def initialize(self, query, refusal, app):
+        """Take what Tornado hands over from the route."""
+        self._query = query
+        self._refusal = refusal
+        self._app = app
+
+    def prepare(self):
+        """Let in who has READ: OctoPrint checks nothing for such routes."""
+        may_read = access_validation_factory(
+            self._app, permission_validator, Permissions.PLUGIN_RRFMODEL_READ
+        )
+        try:
+            may_read(self.request)
+        except tornado.web.HTTPError as error:
+            self._refuse(error.status_code, "You may not read the machine's model.")
+
+    async def get(self):
+        """Answer in the firmware's envelope; 409 while polls are held back, 504 after 10 s."""
+        key = self.get_query_argument("key", "", strip=False)
+        flags = self.get_query_argument("flags", "", strip=False)
+        reason = length_error(key, flags)
+        if reason:
+            self._refuse(400, reason)
+            return
+        reason = self._refusal()
+        if reason:
+            self._refuse(409, reason)
+            return
+        try:
+            future = self._query(key, flags)
+        except TooManyQueries:
+            self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
+            return
+        try:
+            reply = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_SECONDS)
+        except asyncio.TimeoutError:
+            self._refuse(504, gettext("The printer did not answer within ten seconds."))
+        except RuntimeError as error:
+            self._refuse(504, gettext("The printer gave no answer: %(error)s.", error=error))
+        else:
+            answer = {"key": reply.key, "flags": reply.flags or flags, "result": reply.result}
+            if isinstance(reply.result, list):
+                answer["next"] = reply.next
+            self.write(answer)
+
+    def _refuse(self, status, text):
+        self.set_status(status)
+        self.finish({"error": text})

@@ -1,0 +1,204 @@
+"""The plugin as OctoPrint sees it: answers its mixins, wires the parts, computes nothing."""
+
+import time
+
+import flask
+import octoprint.plugin
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+from octoprint.events import Events, eventManager
+
+from .api import ModelApi
+from .comm import POLL_TAG, CommBridge
+from .permissions import permissions
+from .polling import Poller
+from .push import ModelPush
+from .rrf.follower import Follower
+from .rrf.temperatures import temperatures
+from .settings import DEFAULTS, VERSION
+from .simulated_port import SimulatedPort
+from .status import PluginStatus
+from .terminal import TerminalFilter
+from .worker import Worker
+
+
+class RrfModelPlugin(
+    octoprint.plugin.StartupPlugin,
+    octoprint.plugin.ShutdownPlugin,
+    octoprint.plugin.EventHandlerPlugin,
+    octoprint.plugin.SettingsPlugin,
+    octoprint.plugin.AssetPlugin,
+    octoprint.plugin.TemplatePlugin,
+    octoprint.plugin.SimpleApiPlugin,
+    octoprint.plugin.BlueprintPlugin,
+):
+    """RepRapFirmware's object model, live inside OctoPrint."""
+
+    def __init__(self):
+        clock = time.monotonic
+        self._worker = Worker(
+            {
+                "identified": self._on_identified,
+                "disconnected": self._on_disconnected,
+                "poll_sent": lambda: self._poller.poll_sent(),
+                "status_sent": lambda: self._poller.status_sent(),
+                "reply": lambda text: self._poller.reply(text),
+                "refused": lambda line: self._poller.refused(line),
+            },
+            [lambda: self._poller.tick(), lambda: self._push.tick()],
+        )
+        self._follower = Follower()
+        self._bridge = CommBridge(
+            self._worker.notify, self._fresh_temperatures, eventManager().fire, clock
+        )
+        self._poller = Poller(self._follower, self._bridge, self._send, self._on_reply, clock)
+        self._status = PluginStatus(
+            lambda: self._plugin_version,
+            self._bridge,
+            self._poller,
+            self._follower,
+            lambda: self._printer.is_operational(),
+            clock,
+        )
+        self._push = ModelPush(self._tell_pages, self._model, self._status, clock)
+        self._api = ModelApi(self._model, self._status)
+        self._terminal = TerminalFilter(lambda: self._settings.get_boolean(["hide_polls"]))
+        self._simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
+
+    ##~~ StartupPlugin, ShutdownPlugin
+
+    def on_after_startup(self):
+        self._worker.start()
+
+    def on_shutdown(self):
+        self._worker.stop()
+
+    ##~~ EventHandlerPlugin
+
+    def on_event(self, event, payload):
+        # events come late: by now another connection may be up, which brings its own beginning
+        if event == Events.DISCONNECTED and not self._printer.is_operational():
+            self._bridge.forget()
+            self._worker.notify("disconnected")
+
+    ##~~ SettingsPlugin
+
+    def get_settings_defaults(self):
+        return DEFAULTS
+
+    def get_settings_version(self):
+        return VERSION
+
+    ##~~ TemplatePlugin
+
+    def get_template_configs(self):
+        return [{"type": "sidebar", "name": gettext("RepRapFirmware"), "icon": "microchip"}]
+
+    def is_template_autoescaped(self):
+        return True
+
+    ##~~ SimpleApiPlugin
+
+    def is_api_protected(self):
+        return False  # READ may be granted to guests; the answer checks it
+
+    def is_api_adminonly(self):
+        return False
+
+    def on_api_get(self, request):
+        return self._api.get_status()
+
+    ##~~ BlueprintPlugin
+
+    def is_blueprint_protected(self):
+        return False  # READ may be granted to guests; each endpoint checks it
+
+    def is_blueprint_csrf_protected(self):
+        return True
+
+    @octoprint.plugin.BlueprintPlugin.route("/status", methods=["GET"])
+    def get_status(self):
+        return self._api.get_status()
+
+    @octoprint.plugin.BlueprintPlugin.route("/model", methods=["GET"])
+    def get_model(self):
+        return self._api.get_model(flask.request.args)
+
+    ##~~ octoprint.server.http.routes
+
+    def routes(self, server_routes, *args, **kwargs):
+        """Return what Tornado serves itself, since it waits for the printer."""
+        from octoprint.server import app
+
+        from .live import LiveModelHandler
+
+        parts = {"query": self._poller.query, "refusal": self._why_not_now, "app": app}
+        return [(r"/model/live", LiveModelHandler, parts)]
+
+    def _why_not_now(self):
+        if not self._bridge.is_rrf:
+            return self._api.why_empty()
+        if self._follower.protocol == "M408":
+            return gettext("This firmware has no M409 and can't be asked for a key.")
+        if self._poller.blocked():
+            return gettext("The printer is busy and can't be asked now. Try again later.")
+        return None
+
+    ##~~ from the hooks' parts to OctoPrint
+
+    def on_firmware_info(self, comm, firmware_name, data, *args, **kwargs):
+        """Keep what the firmware says of itself, and find out whether it is RepRapFirmware."""
+        self._status.reported(data)
+        self._bridge.on_firmware_info(comm, firmware_name, data)
+
+    def _model(self):
+        return self._follower.store.model
+
+    def _send(self, line):
+        self._printer.commands(line, tags={POLL_TAG})
+
+    def _tell_pages(self, message):
+        self._plugin_manager.send_plugin_message(
+            self._identifier, message, permissions=[Permissions.PLUGIN_RRFMODEL_READ]
+        )
+
+    def _fresh_temperatures(self):
+        model = self._model()
+        if "heat" not in model or self._poller.is_stale():
+            return None
+        return temperatures(model)
+
+    def _on_reply(self, taken, asked_at):
+        if taken.reset:
+            self._push.forgotten()
+            return
+        self._push.changed(taken.changes)
+        tool = self._model().get("state", {}).get("currentTool")
+        if isinstance(tool, int):
+            self._bridge.follow_tool(tool, asked_at)
+
+    def _on_identified(self):
+        self._on_disconnected()
+        self._poller.start()
+
+    def _on_disconnected(self):
+        self._poller.stop()
+        self._push.forgotten()
+
+
+def hooks_of(plugin):
+    """Return OctoPrint's hooks and who handles them; early, so that others see clean lines."""
+    bridge = plugin._bridge
+    return {
+        "octoprint.comm.protocol.gcode.received": (bridge.on_received, 1),
+        "octoprint.comm.protocol.gcode.queuing": bridge.on_queuing,
+        "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
+        "octoprint.comm.protocol.gcode.error": bridge.on_error,
+        "octoprint.comm.protocol.firmware.info": plugin.on_firmware_info,
+        "octoprint.comm.protocol.temperatures.received": bridge.on_temperatures,
+        "octoprint.comm.transport.serial.factory": plugin._simulated_port.open,
+        "octoprint.comm.transport.serial.additional_port_names": plugin._simulated_port.names,
+        "octoprint.server.http.routes": plugin.routes,
+        "octoprint.server.sockjs.emit": plugin._terminal.on_emit,
+        "octoprint.access.permissions": permissions,
+    }

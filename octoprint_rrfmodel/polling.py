@@ -1,0 +1,245 @@
+"""One poll at a time: what to ask comes from the follower, when from the pace.
+
+All of this runs on the worker thread, which calls ``tick`` and hands in what the hooks noted.
+"""
+
+import collections
+import concurrent.futures
+import logging
+
+from .rrf.follower import answers
+from .rrf.line import NO_BUFFERS
+from .rrf.pace import Pace
+from .rrf.reply import MalformedReply, ModelReply, decode
+from .rrf.request import ModelRequest
+
+ANSWER_SECONDS = 10.0
+"""Time that a poll has from being sent; RRF 3.5 waits for buffers before it answers."""
+
+QUEUED_SECONDS = 30.0
+"""Time after which a poll that never left OctoPrint's queue is taken for lost."""
+
+MOST_QUERIES = 4
+"""Questions to the printer that may wait for the one poll slot."""
+
+STALE_POLLS = 3
+"""Poll intervals without news after which the model is stale."""
+
+
+class TooManyQueries(Exception):
+    """As many questions as may wait are waiting."""
+
+
+class _Poll:
+    """The request that is on its way."""
+
+    def __init__(self, request, query, queued_at):
+        self.request = request
+        self.query = query
+        self.queued_at = queued_at
+        self.sent_at = None
+        self.status_sent = False
+        self.answered = False
+
+    def is_over(self):
+        # the M105 behind it leaves when OctoPrint has the ok of the poll itself
+        return self.answered and self.status_sent
+
+
+class Poller:
+    """Sends polls while nothing is in the way, and feeds what comes to the follower.
+
+    ``send(line)`` gives a G-code line to OctoPrint's queue. ``bridge`` is asked whether the line
+    is free. ``changed(Taken, asked_at)`` is told of each reply that was applied.
+    """
+
+    def __init__(self, follower, bridge, send, changed, clock):
+        self._follower = follower
+        self._bridge = bridge
+        self._send = send
+        self._changed = changed
+        self._clock = clock
+        self._pace = Pace()
+        self._logger = logging.getLogger("octoprint.plugins.rrfmodel.polling")
+        self._poll = None
+        self._running = False
+        self._next_at = 0.0
+        self._queries = collections.deque()
+        self.applied_at = None
+        """When the last reply was applied; ``None`` before the first of a connection."""
+        self.polls = 0
+        self.bytes = 0
+
+    def start(self):
+        """Begin to poll: the printer has just told that it runs RepRapFirmware."""
+        self._pace.connected(self._bridge.baudrate())
+        self._running = True
+        self._next_at = self._clock()
+        self._bridge.expects_refusal = self._follower.protocol is None
+
+    def stop(self):
+        """Poll no more and know nothing: the connection is gone."""
+        self._running = False
+        self._poll = None
+        self.applied_at = None
+        self._follower.forget()
+        while self._queries:
+            self._fail(self._queries.popleft()[1], "the printer was disconnected")
+
+    def tick(self):
+        """Send what is due; return the seconds until there may be something to do again."""
+        if not self._running:
+            return 60.0
+        now = self._clock()
+        if self._poll is not None:
+            self._watch(now)
+        if self._poll is None and not self.blocked() and (now >= self._next_at or self._queries):
+            self._start_poll(now)
+        if self._poll is not None or self.blocked():
+            return 0.25
+        return max(0.01, self._next_at - now)
+
+    def blocked(self):
+        """Return why no poll goes out: the line's reason, or ``buffers``."""
+        if not self._running:
+            return None
+        reason = self._bridge.blocked()
+        if reason is None and self._follower.short_of_buffers and self._clock() < self._next_at:
+            reason = "buffers"
+        return reason
+
+    def interval(self):
+        """Return the seconds between two polls as they go now."""
+        return self._pace.wait(self._bridge.is_streaming_a_print(), behind=False)
+
+    def is_stale(self):
+        """Return whether the model is older than three poll intervals."""
+        if self.applied_at is None:
+            return True
+        return self._clock() - self.applied_at > STALE_POLLS * self.interval()
+
+    def query(self, key, flags):
+        """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
+        if len(self._queries) >= MOST_QUERIES:
+            raise TooManyQueries
+        future = concurrent.futures.Future()
+        self._queries.append((ModelRequest(key, flags), future))
+        return future
+
+    ##~~ what the hooks noted
+
+    def poll_sent(self):
+        """Note that the poll went out."""
+        if self._poll is not None and self._poll.sent_at is None:
+            self._poll.sent_at = self._clock()
+            self.polls += 1
+
+    def status_sent(self):
+        """Note that the M105 behind the poll went out: the poll's ok has come."""
+        if self._poll is not None and self._poll.sent_at is not None:
+            self._poll.status_sent = True
+            self._finish_if_over()
+
+    def refused(self, line):
+        """Note a line that says that a command isn't known, if it is about ours."""
+        poll = self._poll
+        if poll is None or poll.query is not None or "not supported" not in line.lower():
+            return
+        if poll.request.line.split()[0] in line:
+            self._follower.not_supported()
+            self._end(failed=False)
+
+    def reply(self, text):
+        """Take a reply that was found on the line."""
+        self.bytes += len(text)
+        poll = self._poll
+        if poll is None or poll.sent_at is None or poll.answered:
+            return
+        if poll.query is not None:
+            self._answer_query(poll, text)
+            return
+        asked_at = poll.sent_at
+        try:
+            taken = self._follower.take(text)
+        except MalformedReply as error:
+            self._logger.debug("Reply not understood, asking again: %s", error)
+            poll.answered = True
+            self._pace.failed()
+            self._finish_if_over()
+            return
+        if taken is None:
+            return
+        poll.answered = True
+        self._bridge.expects_refusal = False
+        if text == NO_BUFFERS:
+            self._pace.failed()
+        else:
+            self._pace.answered(len(text), self._clock() - asked_at)
+            self.applied_at = self._clock()
+            self._changed(taken, asked_at)
+        self._finish_if_over()
+
+    ##~~ the poll slot
+
+    def _start_poll(self, now):
+        query = None
+        request = None
+        while self._queries and request is None:
+            request, query = self._queries.popleft()
+            if not query.set_running_or_notify_cancel():
+                request = query = None
+        if request is None:
+            request = self._follower.next_request()
+        self._poll = _Poll(request, query, now)
+        self._send(request.line)
+
+    def _watch(self, now):
+        """Give up a poll whose answer, or whose leaving, takes too long."""
+        poll = self._poll
+        if poll.answered:
+            # its ok was lost; OctoPrint finds that out by itself
+            if now - poll.sent_at > ANSWER_SECONDS:
+                self._end(failed=False)
+        elif poll.sent_at is not None:
+            if now - poll.sent_at > ANSWER_SECONDS:
+                self._time_out(poll)
+        elif now - poll.queued_at > QUEUED_SECONDS and not self._bridge.blocked():
+            self._time_out(poll)
+
+    def _time_out(self, poll):
+        if poll.query is None:
+            self._follower.timed_out()
+        else:
+            self._fail(poll.query, "the printer did not answer in time")
+        self._end(failed=True)
+
+    def _finish_if_over(self):
+        if self._poll.is_over():
+            self._end(failed=False)
+
+    def _end(self, failed):
+        if failed:
+            self._pace.failed()
+        self._poll = None
+        wait = self._pace.wait(self._bridge.is_streaming_a_print(), self._follower.behind)
+        self._next_at = self._clock() + wait
+
+    def _answer_query(self, poll, text):
+        try:
+            reply = decode(text)
+        except MalformedReply as error:
+            self._fail(poll.query, str(error))
+        else:
+            if isinstance(reply, ModelReply) and not answers(reply, poll.request):
+                return
+            if isinstance(reply, ModelReply):
+                poll.query.set_result(reply)
+            else:
+                self._fail(poll.query, "the printer had no room for this answer")
+        poll.answered = True
+        self._finish_if_over()
+
+    @staticmethod
+    def _fail(future, reason):
+        if not future.done():
+            future.set_exception(RuntimeError(reason))

@@ -1,0 +1,67 @@
+"""What every open page is told, collected and sent a few times a second.
+
+Messages of the plugin ``rrfmodel``, for those who have READ:
+
+* ``{"type": "model", "revision": n, "changed": {key: value}, "status": {...}}``: top-level keys
+  of the object model that changed since the last message, each whole.
+* ``{"type": "status", "status": {...}}``: nothing of the model changed, but the state did.
+* ``{"type": "reset", "status": {...}}``: what was known holds no longer, more will follow.
+"""
+
+SHORTEST_SECONDS = 0.5
+
+UNIMPORTANT = frozenset(("age", "revision", "counters"))
+"""Members of the state that change all the time and are worth no message of their own."""
+
+
+class ModelPush:
+    """Tells the pages; runs on the worker thread.
+
+    ``send(message)`` reaches them. ``model()`` is the snapshot, ``status()`` the plugin's state.
+    """
+
+    def __init__(self, send, model, status, clock):
+        self._send = send
+        self._model = model
+        self._status = status
+        self._clock = clock
+        self._changed = set()
+        self._forgotten = False
+        self._told = None
+        self._sent_at = 0.0
+
+    def changed(self, keys):
+        """Note top-level keys that changed."""
+        self._changed.update(keys)
+
+    def forgotten(self):
+        """Note that the model was emptied."""
+        self._changed.clear()
+        self._forgotten = True
+
+    def tick(self):
+        """Send what is due; return the seconds until something may be."""
+        now = self._clock()
+        due = self._sent_at + SHORTEST_SECONDS - now
+        if due > 0:
+            return due
+        status = self._status()
+        told = {name: value for name, value in status.items() if name not in UNIMPORTANT}
+        if self._forgotten:
+            self._forgotten = False
+            self._send({"type": "reset", "status": status})
+        elif self._changed:
+            model = self._model()
+            changed = {key: model.get(key) for key in self._changed}
+            self._changed.clear()
+            revision = status["revision"]
+            self._send(
+                {"type": "model", "revision": revision, "changed": changed, "status": status}
+            )
+        elif told != self._told:
+            self._send({"type": "status", "status": status})
+        else:
+            return SHORTEST_SECONDS
+        self._told = told
+        self._sent_at = now
+        return SHORTEST_SECONDS

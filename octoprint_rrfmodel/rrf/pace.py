@@ -1,0 +1,64 @@
+"""How long to wait before the next poll, from what the last one cost."""
+
+from __future__ import annotations
+
+IDLE_SECONDS = 1.0
+PRINTING_SECONDS = 2.0
+"""Shortest time between two polls while a host streams a print: they come before its lines."""
+
+IDLE_SHARE = 0.4
+PRINTING_SHARE = 0.05
+"""Part of the line's time that polling may take."""
+
+CATCHING_UP_SECONDS = 0.02
+"""Between polls while keys wait to be fetched and nothing else needs the line."""
+
+LONGEST_SECONDS = 30.0
+
+OVERHEAD_BYTES = 120
+"""Bytes around a reply: the request, the blank line, two ok, M105 and its temperatures."""
+
+BITS_A_BYTE = 10
+
+
+class Pace:
+    """Measures polls and spaces them. Times are in seconds."""
+
+    def __init__(self) -> None:
+        self._cost = 0.0
+        self._failures = 0
+        self._baudrate = 0
+
+    def connected(self, baudrate: int) -> None:
+        """Begin anew; ``baudrate`` is 0 where none is known. On USB it means nothing."""
+        self._baudrate = baudrate
+        self._cost = 0.0
+        self._failures = 0
+
+    def answered(self, length: int, seconds: float) -> None:
+        """Note a reply of ``length`` bytes that came ``seconds`` after its request was sent.
+
+        What the line was taken for is at most both: a USB line is faster than its nominal rate,
+        and a board may think longer than it talks.
+        """
+        self._failures = 0
+        self._cost = seconds
+        if self._baudrate:
+            line_time = (length + OVERHEAD_BYTES) * BITS_A_BYTE / self._baudrate
+            self._cost = min(seconds, line_time)
+
+    def failed(self) -> None:
+        """Note a poll that brought nothing: back off, the more the oftener."""
+        self._failures += 1
+
+    def wait(self, printing: bool, behind: bool) -> float:
+        """Return the seconds between the end of the last poll and the next one."""
+        share = PRINTING_SHARE if printing else IDLE_SHARE
+        spaced = self._cost * (1 - share) / share
+        if self._failures:
+            return min(LONGEST_SECONDS, max(spaced, IDLE_SECONDS * 2.0**self._failures))
+        if printing:
+            return max(PRINTING_SECONDS, spaced)
+        if behind:
+            return CATCHING_UP_SECONDS
+        return min(LONGEST_SECONDS, max(IDLE_SECONDS, spaced))

@@ -1,0 +1,111 @@
+"""View: the model's temperatures under the names that a host's temperature report has."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+Temperature = tuple[Any, Any]
+"""Current value and target in degrees Celsius; ``None`` where there is none."""
+
+ABSOLUTE_ZERO = -273.0
+BAD_READING = 1999.0
+"""The firmware shows -273.15 for a sensor that has none, 2000 for one that is broken."""
+
+RESERVED = re.compile(r"B\d*|C\d*|T\d*")
+"""Names that a temperature report gives to beds, chambers and tools."""
+
+_TARGET_OF_STATE = {"active": "active", "tuning": "active", "standby": "standby"}
+
+
+class Temperatures(NamedTuple):
+    """What the model says about heat."""
+
+    tools: dict[int, Temperature]
+    """By RRF's tool number; a tool without a heater is missing."""
+    bed: Temperature | None
+    chamber: Temperature | None
+    others: dict[str, Temperature]
+    """Further heaters of a tool, beds, chambers, and sensors that no heater uses."""
+
+
+def temperatures(model: Mapping[str, Any]) -> Temperatures:
+    """Return the temperatures of tools, beds, chambers and sensors.
+
+    The first slot with a heater is the bed, the chamber; further ones are called ``B1``, ``C1``
+    as in the firmware's own report (3.5 GCodes.cpp:4811). Sensors keep their names unless they
+    are reserved or there twice.
+    """
+    heat = _object(model.get("heat"))
+    heaters = _array(heat.get("heaters"))
+    others: dict[str, Temperature] = {}
+    tools: dict[int, Temperature] = {}
+    for tool in _array(model.get("tools")):
+        number = _object(tool).get("number")
+        own = [_heater(heaters, index) for index in _array(_object(tool).get("heaters"))]
+        if isinstance(number, int) and own and own[0]:
+            tools[number] = own[0]
+            for place, extra in enumerate(own[1:], 1):
+                if extra:
+                    others[f"Tool {number} heater {place}"] = extra
+    beds = list(_slots(heaters, heat.get("bedHeaters")))
+    chambers = list(_slots(heaters, heat.get("chamberHeaters")))
+    for letter, slots in (("B", beds), ("C", chambers)):
+        for slot, value in slots[1:]:
+            others[f"{letter}{slot}"] = value
+    for name, reading in _free_sensors(model, heaters):
+        others[_unused(name, others)] = (reading, None)
+    return Temperatures(
+        tools, beds[0][1] if beds else None, chambers[0][1] if chambers else None, others
+    )
+
+
+def _heater(heaters: list[Any], index: Any) -> Temperature | None:
+    if not isinstance(index, int) or not 0 <= index < len(heaters):
+        return None
+    heater = _object(heaters[index])
+    if "current" not in heater:
+        return None
+    target = heater.get(_TARGET_OF_STATE.get(str(heater.get("state")), ""), 0.0)
+    # a target of -273.15 is one that was never set, or that switched the heater off
+    if not isinstance(target, (int, float)) or target < 0:
+        target = 0.0
+    return heater["current"], target
+
+
+def _slots(heaters: list[Any], slots: Any) -> Iterator[tuple[int, Temperature]]:
+    for slot, index in enumerate(_array(slots)):
+        value = _heater(heaters, index)
+        if value:
+            yield slot, value
+
+
+def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tuple[str, float]]:
+    """Yield name and reading of each working sensor that isn't a heater's own."""
+    used = {_object(heater).get("sensor") for heater in heaters}
+    sensors = _array(_object(model.get("sensors")).get("analog"))
+    for number, sensor in enumerate(sensors):
+        reading = _object(sensor).get("lastReading")
+        if number in used or not isinstance(reading, (int, float)):
+            continue
+        if ABSOLUTE_ZERO < reading < BAD_READING:
+            yield str(sensor.get("name") or f"Sensor {number}"), reading
+
+
+def _unused(name: str, names: Mapping[str, Any]) -> str:
+    if RESERVED.fullmatch(name):
+        name = f"Sensor {name}"
+    unused, count = name, 1
+    while unused in names:
+        count += 1
+        unused = f"{name} {count}"
+    return unused
+
+
+def _object(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _array(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []

@@ -1,0 +1,17 @@
+"""The plugin's settings and what they are when nobody has changed them."""
+
+VERSION = 1
+
+DEFAULTS = {
+    # keep the plugin's polls out of the terminal tab
+    "hide_polls": True,
+    "simulator": {
+        # whether the port RRF-SIM is offered
+        "enabled": False,
+        "machine": "cartesian",
+        "firmware": "3.5.3",
+        "speed": 1.0,
+        # names as the simulator's --list tells them, such as "lost_ok:50"
+        "faults": [],
+    },
+}

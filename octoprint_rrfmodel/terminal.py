@@ -1,0 +1,88 @@
+"""Keeps the plugin's own traffic out of the terminal that a page is shown.
+
+OctoPrint logs a line before any plugin sees it, so it can't be kept out of serial.log; but the
+list of lines that goes to one client belongs to that client.
+"""
+
+import re
+import weakref
+
+SENT = re.compile(r"(?:Send: |>>> )(?:N\d+ )?(?P<command>.*?)(?:\*\d+)?$")
+"""A line that went to the printer, as 1.11 and 2.0 log it; group ``command`` is the G-code."""
+
+RECEIVED = re.compile(r"(?:Recv: |<<< ?)(?P<text>.*)$")
+"""A line that came from the printer; group ``text`` is the line."""
+
+OWN_POLL = re.compile(r'M409 K"[^"]*" F"(?:d99fin|d\d+vno)(?:a\d+)?"|M408 S[0-5]')
+"""The commands that polling sends; what a person types looks otherwise."""
+
+OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins)":')
+
+PATIENCE = 20
+"""Lines after which a poll whose reply was not seen is forgotten."""
+
+
+class _Follow:
+    """How far one client has come through a poll: its reply, its ok, the M105 and its reply."""
+
+    def __init__(self):
+        self.expects = "poll"
+        self.seen = 0
+
+    def hides(self, line):
+        """Return whether a line belongs to a poll."""
+        sent = SENT.match(line)
+        if sent:
+            return self._hides_sent(sent["command"].strip())
+        received = RECEIVED.match(line)
+        if received is None or self.expects == "poll":
+            return False
+        return self._hides_received(received["text"].strip())
+
+    def _hides_sent(self, command):
+        if OWN_POLL.fullmatch(command):
+            self._expect("reply")
+            return True
+        if self.expects == "M105" and command == "M105":
+            self._expect("temperatures")
+            return True
+        return False
+
+    def _hides_received(self, text):
+        self.seen += 1
+        if self.seen > PATIENCE:
+            self._expect("poll")
+            return False
+        if self.expects == "temperatures" and text.startswith("ok"):
+            self._expect("poll")
+            return True
+        if self.expects == "reply" and text == "ok":
+            self._expect("M105")
+            return True
+        return self.expects in ("reply", "M105") and (not text or bool(OWN_REPLY.match(text)))
+
+    def _expect(self, what):
+        self.expects = what
+        self.seen = 0
+
+
+class TerminalFilter:
+    """Takes polls out of the lines that go to each client.
+
+    ``is_on()`` says whether to.
+    """
+
+    def __init__(self, is_on):
+        self._is_on = is_on
+        self._clients = weakref.WeakKeyDictionary()
+
+    def on_emit(self, socket, user, message, payload, *args, **kwargs):
+        """Take the lines out of ``payload``; always let the message go (OctoPrint's hook)."""
+        if message in ("current", "history") and self._is_on():
+            logs = payload.get("logs") if payload else None
+            if logs:
+                if message == "history" or socket not in self._clients:
+                    self._clients[socket] = _Follow()
+                hides = self._clients[socket].hides
+                payload["logs"] = [line for line in logs if not hides(line)]
+        return True
