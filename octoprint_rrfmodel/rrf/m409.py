@@ -28,8 +28,8 @@ _UNSIGNED = 1 << 32
 _NAME = re.compile(r"[^.\[^]*")
 """A member name: up to the next ``.``, ``[`` or ``^``."""
 
-_INDEX = re.compile(r"\[[ \t\n\v\f\r]*([+-]?[0-9]+)\]")
-"""An array index; group 1 is the number. Blanks and a sign may stand before it, as strtol does."""
+_INDEX = re.compile(r"\[[ \t\n\v\f\r]*([+-]?)0*([0-9]+)\]")
+"""An array index; groups are sign and digits. Blanks may stand before it, as strtol does."""
 
 _LETTER = re.compile(r"([da])([0-9]*)|.", re.DOTALL)
 """One flag letter; groups 1 and 2 are the letter and the number of ``d<n>`` and ``a<n>``."""
@@ -250,9 +250,9 @@ class _Query:
         """Return the element that ``[n]`` names, and the key behind it."""
         matched = _INDEX.match(rest)
         # an absurdly long number is out of range and need not be converted
-        if matched is None or len(matched[1]) > 20:
+        if matched is None or len(matched[2]) > 20:
             return None
-        index = int(matched[1])
+        index = int(matched[1] + matched[2])
         return (value[index], rest[matched.end() :]) if 0 <= index < len(value) else None
 
     def leaf(self, value: Any, rest: str) -> Any:
