@@ -165,9 +165,10 @@ class _Query:
         """Return the elements from the start asked for, and where to go on."""
         start = self.flags.start or 0
         result: list[Any] = []
-        room = ROOT_ARRAY_BYTES - _text_length(dict(envelope, result=[])) + 2
+        # one more for the comma that the first element hasn't
+        room = ROOT_ARRAY_BYTES - _text_length(dict(envelope, result=[])) + 3
         for index in range(start, len(value)):
-            # RepRap.cpp:2307: tested after the first element, before each further one
+            # ObjectModel.cpp:1077: tested before each further element and its comma
             if self.firmware and result and room <= 0:
                 return {"result": result, "next": index}
             result.append(self.value(value[index], rest, node, opened))
