@@ -1,0 +1,245 @@
+"""M20 to M39: the card over the serial line.
+
+RRF 3.5 GCodes2.cpp:953-1030, RepRap.cpp:1865-2030, MassStorage.cpp:1118-1205. None of the texts is
+what OctoPrint waits for: sizes are missing, and no "SD card ok" is ever said.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, Dict, List, Optional
+
+from .card import Entry
+from .channel import Channel, Outcome, Running
+from .command import Command, GCodeError
+from .fileinfo import file_info
+from .om import encoded, quoted, with_decimals, TREE
+from .serial_line import Kind, Reply
+
+if TYPE_CHECKING:
+    from .board import Board
+
+LIST_BYTES = 2600
+"""Text length at which a listing goes on with ``next``: the buffers aren't endless."""
+THUMBNAIL_BYTES = 1200
+NOT_MOUNTED, NO_FOLDER = 1, 2
+
+
+def _folder(command: Command) -> str:
+    """Return the folder as asked for, with a slash at the end only if it came with one."""
+    return command.string("P") or "0:/gcodes/"
+
+
+def list_files(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M20: S0 names, S2 JSON names, S3 JSON with sizes and dates."""
+    kind = command.integer("S", 0) or 0
+    asked = _folder(command)
+    path = board.card.path_of(asked)
+    if kind not in (2, 3):
+        names = "".join(f"{entry.name}\n" for entry in board.card.entries(path))
+        text = names or "NONE\n"
+        return Reply(text, Kind.FILE_LIST) if _is_marlin(channel) else Reply(text, Kind.LONG)
+    first = command.integer("R", 0) or 0
+    error = 0
+    if not board.card.is_mounted:
+        error = NOT_MOUNTED
+    elif not board.card.has_folder(path):
+        error = NO_FOLDER
+    text = (_names if kind == 2 else _details)(board, asked, path, first, error)
+    if board.faults.take("err_no_buffers"):
+        text = '{"err":-1}'
+    return Reply(text + "\n", Kind.LONG)
+
+
+def _is_marlin(channel: Channel) -> bool:
+    return channel.input["compatibility"] == "Marlin"
+
+
+def _page(head: str, parts: List[str], first: int, tail: str) -> str:
+    """Return a listing that stops at :data:`LIST_BYTES` and says where it goes on."""
+    text, following = head, 0
+    for index in range(first, len(parts)):
+        if index > first and len(text) >= LIST_BYTES:
+            following = index
+            break
+        text += ("," if index > first else "") + parts[index]
+    return f'{text}],"next":{following}{tail}}}'
+
+
+def _names(board: Board, asked: str, path: str, first: int, error: int) -> str:
+    if error:
+        return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
+    parts = [quoted(("*" if e.is_folder else "") + e.name) for e in board.card.entries(path)]
+    head = f'{{"dir":{quoted(asked)},"first":{first},"files":['
+    return _page(head, parts, first, ',"err":0')
+
+
+def _details(board: Board, asked: str, path: str, first: int, error: int) -> str:
+    if error:
+        return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
+    parts = [_detail(entry) for entry in board.card.entries(path)]
+    return _page(f'{{"dir":{quoted(asked)},"first":{first},"files":[', parts, first, "")
+
+
+def _detail(entry: Entry) -> str:
+    size = "" if entry.is_folder else f'"size":{entry.size},'
+    kind = "d" if entry.is_folder else "f"
+    return f'{{"type":"{kind}","name":{quoted(entry.name)},{size}"date":"{entry.date}"}}'
+
+
+def mount(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M21."""
+    slot = command.integer("P", 0) or 0
+    if slot:
+        raise GCodeError(f"Cannot initialise SD card {slot}: Card not present")
+    board.card.is_mounted = True
+    board.volumes_changed(True)
+    return "SDHC card mounted in slot 0, capacity 15.9Gb"
+
+
+def unmount(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M22."""
+    slot = command.integer("P", 0) or 0
+    if board.job.is_printing:
+        raise GCodeError("SD card 0 has open file(s)")
+    if not slot:
+        board.card.is_mounted = False
+        board.volumes_changed(False)
+    return f"SD card {slot} may now be removed"
+
+
+def start_upload(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M28: every line until M29 goes to the file and gets no ok (RRF 3.5 GCodeInput.cpp:20-55)."""
+    name = command.unquoted_text()
+    if not name:
+        raise GCodeError("missing filename")
+    path = board.card.path_of(name)
+    board.card.write(path, "", board.date_time())
+    channel.upload = path
+    return Reply(f"Writing to file: {name}", Kind.UPLOAD)
+
+
+def end_upload(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M29."""
+    if channel.upload is None:
+        return None
+    channel.upload = None
+    board.volumes_changed(True)
+    return "Done saving file."
+
+
+def delete(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M30."""
+    name = command.unquoted_text()
+    path = board.card.path_of(name)
+    if not board.card.delete(path):
+        board.message(f"Error: Failed to delete file {path}\n")
+        raise GCodeError(f"Failed to delete file {path}")
+    board.volumes_changed(True)
+    return None
+
+
+def information(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M36: file information; without a name of the file being printed. M36.1: a thumbnail."""
+    if command.fraction == 1:
+        return _thumbnail(board, command)
+    name = command.unquoted_text()
+    if name:
+        path = board.card.path_of(name)
+        found = board.card.name_of(path)
+        extra = ""
+    else:
+        found = board.job.path
+        path, extra = found or "", f',"printDuration":{int(board.job.duration)}'
+    content = board.card.read(found) if found else None
+    if content is None:
+        return Reply(f'{{"err":1,"fileName":{quoted(name)}}}\n', Kind.LONG)
+    info = board.members_of(file_info(path, content, board.card.date(found)), "job.file")
+    return Reply(_information(info) + extra + "}\n", Kind.LONG)
+
+
+FIELDS = (
+    "fileName",
+    "size",
+    "lastModified",
+    "height",
+    "firstLayerHeight",
+    "layerHeight",
+    "numLayers",
+    "printTime",
+    "simulatedTime",
+    "filament",
+    "thumbnails",
+    "generatedBy",
+)
+"""Members of M36 in the order they are printed."""
+
+
+def _information(info: Dict[str, Any]) -> str:
+    shown = with_decimals(info, TREE["job"]["file"])
+    text = '{"err":0'
+    for field in FIELDS:
+        if field in shown and shown[field] not in (None, []) or field == "filament":
+            text += f",{quoted(field)}:{encoded(shown[field])}"
+    return text
+
+
+def _thumbnail(board: Board, command: Command) -> Outcome:
+    """A piece of a thumbnail's text (3.4 and later)."""
+    name, start = command.string("P") or "", command.integer("S", 0) or 0
+    content = board.card.read(board.card.path_of(name))
+    if content is None:
+        return Reply(
+            f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},"err":1}}}}\n', Kind.LONG
+        )
+    text = content[start:].decode("latin-1").partition("; thumbnail")[0]
+    joined = "".join(line.lstrip("; ") for line in text.splitlines(True))
+    data = re.sub(r"\s", "", joined)[:THUMBNAIL_BYTES]
+    following = 0 if len(re.sub(r"\s", "", joined)) <= THUMBNAIL_BYTES else start + len(data)
+    return Reply(
+        f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},"data":"{data}",'
+        f'"next":{following},"err":0}}}}\n',
+        Kind.LONG,
+    )
+
+
+def card_information(board: Board, channel: Channel, command: Command) -> Outcome:
+    """M39: text, with S2 JSON."""
+    volume: Optional[Dict[str, Any]] = (board.data.get("volumes") or [None])[0]
+    if command.integer("S", 0) != 2:
+        return (
+            "SD card in slot 0: capacity 15.9Gb, partition size 15.9Gb, free space 15.7Gb, "
+            "speed 20.0MBytes/sec, cluster size 32kb"
+        )
+    capacity = volume["capacity"] if volume else 0
+    free = volume["freeSpace"] if volume else 0
+    return Reply(
+        f'{{"SDinfo":{{"slot":0,"present":1,"capacity":{capacity},"free":{free},'
+        f'"speed":20000000,"clsize":32768}}}}\n',
+        Kind.LONG,
+    )
+
+
+def run_macro(board: Board, channel: Channel, command: Command) -> Running:
+    """M98: the macro's own replies add no ok."""
+    name = command.string("P") or ""
+    path = board.card.path_of(name, "0:/sys")
+    lines = board.card.lines(path)
+    if lines is None:
+        board.message(f"Warning: Macro file {name} not found\n")
+        return
+    with board.running_macro(channel):
+        yield from channel.macro(lines)
+
+
+TABLE = {
+    "M20": list_files,
+    "M21": mount,
+    "M22": unmount,
+    "M28": start_upload,
+    "M29": end_upload,
+    "M30": delete,
+    "M36": information,
+    "M39": card_information,
+    "M98": run_macro,
+}

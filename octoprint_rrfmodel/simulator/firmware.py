@@ -1,0 +1,166 @@
+"""What differs between RepRapFirmware versions on the serial line, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Dict, Optional, Tuple
+
+
+class UnknownFirmware(ValueError):
+    """The version asked for isn't in :data:`VERSIONS`; the text names those that are."""
+
+
+@dataclass(frozen=True)
+class Firmware:
+    """One firmware version. Every field is a difference some host can observe."""
+
+    version: str
+    """As ``M115`` and ``boards[0].firmwareVersion`` spell it."""
+    release: Tuple[int, ...]
+    """For comparisons with the versions of the object model's members."""
+    date: str
+    time: str = ""
+    """Appended to the date in ``M115`` only."""
+    m115_date_twice: bool = False
+    """RRF 3.3 GCodes2.cpp:1659 prints FIRMWARE_DATE a second time."""
+    has_model: bool = True
+    """M409 exists (3.1 and later)."""
+    has_m568: bool = True
+    """M568 sets temperatures (3.3 and later), before only G10 does."""
+    line_length: int = 256
+    """Input line buffer including the terminating NUL (201 in 3.3)."""
+    has_crc: bool = True
+    """Five digits after ``*`` are a CRC16 (3.4 StringParser.cpp:284), before always XOR."""
+    report_interval: float = 2.0
+    """Seconds between temperature lines while USB is blocked."""
+    report_follows_request: bool = True
+    """3.5.2 and later: only after M105 does the report go to USB (3.5 GCodes.cpp:4865)."""
+    waits_for_buffers: bool = True
+    """3.5 and later retry M409 silently below 20 free buffers."""
+    duet2_buffers: int = 26
+    """Output buffers of a Duet 2 (24 in 3.3)."""
+    has_important_flag: bool = True
+    """Flag ``i`` (3.4 and later)."""
+    axes_limit: Optional[int] = 9
+    """``move.axes`` elements without ``f`` or ``a`` (3.5 Move.cpp:69)."""
+    leaf_ends_key: bool = False
+    """Up to 3.4 whatever follows a number, text or boolean in the key is ignored."""
+    error_column: bool = True
+    """3.5 and later put the column in front of a syntax error (GCodeException.cpp:60)."""
+    move_error_names_next: bool = True
+    """3.5 and later name the next command of the line where a move fails, before ``G0/G1``."""
+    has_events: bool = True
+    """3.4 and later print faults through the event system."""
+    has_cancelling: bool = True
+    """Status ``cancelling`` (3.4 and later)."""
+    box_modes: int = 7
+    """Highest M291 mode; 4 to 7 came with 3.5."""
+    usb_box_opens: bool = False
+    """Whether M291 from USB makes a box in the model that M292 from USB can close (#1141)."""
+    exponent: bool = False
+    """Whether numbers may come in exponential form. No version read does it."""
+    needs_duet2: bool = False
+    """Whether only a Duet 2 runs it."""
+
+    def at_least(self, *release: int) -> bool:
+        return self.release >= release
+
+
+_V36 = Firmware("3.6.0", (3, 6, 0), "2025-04-24", " 11:38:13")
+_V353 = Firmware("3.5.3", (3, 5, 3), "2024-10-01", " 14:21:40")
+_V351 = Firmware(
+    "3.5.1",
+    (3, 5, 1),
+    "2024-04-19",
+    " 14:30:54",
+    report_interval=1.0,
+    report_follows_request=False,
+)
+_V34 = Firmware(
+    "3.4.6",
+    (3, 4, 6),
+    "2023-07-21",
+    " 14:08:28",
+    report_interval=1.0,
+    report_follows_request=False,
+    waits_for_buffers=False,
+    axes_limit=None,
+    leaf_ends_key=True,
+    error_column=False,
+    move_error_names_next=False,
+    box_modes=3,
+    usb_box_opens=True,
+)
+_V33 = Firmware(
+    "3.3",
+    (3, 3, 0),
+    "2021-06-15",
+    " 21:46:11",
+    m115_date_twice=True,
+    line_length=201,
+    has_crc=False,
+    report_interval=1.0,
+    report_follows_request=False,
+    waits_for_buffers=False,
+    duet2_buffers=24,
+    has_important_flag=False,
+    axes_limit=None,
+    leaf_ends_key=True,
+    error_column=False,
+    move_error_names_next=False,
+    has_events=False,
+    has_cancelling=False,
+    box_modes=3,
+    usb_box_opens=True,
+)
+_V205 = Firmware(
+    "2.05.1",
+    (2, 5, 1),
+    "2020-02-09b1",
+    has_model=False,
+    has_m568=False,
+    line_length=201,
+    has_crc=False,
+    report_interval=1.0,
+    report_follows_request=False,
+    waits_for_buffers=False,
+    duet2_buffers=24,
+    has_important_flag=False,
+    axes_limit=None,
+    leaf_ends_key=True,
+    error_column=False,
+    move_error_names_next=False,
+    has_events=False,
+    has_cancelling=False,
+    box_modes=3,
+    usb_box_opens=True,
+    needs_duet2=True,
+)
+
+VERSIONS: Dict[str, Firmware] = {
+    "2.05": _V205,
+    "3.3": _V33,
+    "3.4": _V34,
+    "3.5.1": _V351,
+    "3.5.3": _V353,
+    "3.6": _V36,
+}
+"""The versions that can be asked for by name."""
+
+ALIASES = {
+    "2.05.1": "2.05",
+    "3.3.0": "3.3",
+    "3.4.0": "3.4",
+    "3.4.6": "3.4",
+    "3.5": "3.5.3",
+    "3.6.0": "3.6",
+}
+
+
+def firmware_called(version: str) -> Firmware:
+    """Return the firmware of that version; :class:`UnknownFirmware` names the known ones."""
+    try:
+        return VERSIONS[ALIASES.get(version, version)]
+    except KeyError:
+        known = ", ".join(VERSIONS)
+        raise UnknownFirmware(f"unknown firmware {version!r}, known are {known}") from None

@@ -1,0 +1,377 @@
+"""The parts an object model is put together from, each with the members of all versions.
+
+Member order is the firmware's, which is that of strcmp.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Optional, Sequence
+
+ABS_ZERO = -273.15
+ROOM = 21.3
+"""Temperature in °C of everything that nobody heats."""
+
+INPUT_NAMES = (
+    "HTTP",
+    "Telnet",
+    "File",
+    "USB",
+    "Aux",
+    "Trigger",
+    "Queue",
+    "LCD",
+    "SBC",
+    "Daemon",
+    "Aux2",
+    "Autopause",
+    "File2",
+    "Queue2",
+)
+"""Channels in the order of their index in ``inputs`` (RRF 3.5 GCodeChannel.h)."""
+
+INPUTS_SINCE_35 = ("File2", "Queue2")
+MARLIN_CHANNELS = ("Telnet", "USB")
+"""The channels that start in Marlin compatibility (RRF 3.5 GCodes.cpp:110, 122)."""
+
+
+def monitor(limit: Optional[float], sensor: int = -1) -> Dict[str, Any]:
+    """Return a heater monitor; without a limit a disabled one."""
+    return {
+        "action": None if limit is None else 0,
+        "condition": "disabled" if limit is None else "tooHigh",
+        "limit": limit,
+        "sensor": sensor,
+    }
+
+
+def heater(
+    sensor: int,
+    limit: float,
+    heating_rate: float,
+    cooling_rate: float,
+    dead_time: float = 3.0,
+    cold: float = ROOM,
+) -> Dict[str, Any]:
+    """Return a switched-off heater; rates in K/s at full power and K/s per 100 K above ambient."""
+    return {
+        "active": 0.0,
+        "avgPwm": 0.0,
+        "current": cold,
+        "max": limit,
+        "maxBadReadings": 3,
+        "maxHeatingFaultTime": 5.0,
+        "maxTempExcursion": 15.0,
+        "min": -273.1,
+        "model": {
+            "coolingExp": 1.35,
+            "coolingRate": cooling_rate,
+            "deadTime": dead_time,
+            "enabled": True,
+            "fanCoolingRate": 0.0,
+            "gain": round(heating_rate / cooling_rate * 100, 1),
+            "heatingRate": heating_rate,
+            "inverted": False,
+            "maxPwm": 1.0,
+            "pid": {"d": 0.241, "i": 0.0028, "overridden": False, "p": 0.05917, "used": True},
+            "standardVoltage": 24.0,
+            "timeConstant": round(100 / cooling_rate, 1),
+            "timeConstantFansOn": round(100 / cooling_rate, 1),
+        },
+        "monitors": [monitor(limit, sensor), monitor(None), monitor(None)],
+        "sensor": sensor,
+        "standby": 0.0,
+        "state": "off",
+    }
+
+
+def thermistor(name: str, port: str) -> Dict[str, Any]:
+    return {
+        "beta": 4725.0,
+        "c": 7.06e-8,
+        "lastReading": ROOM,
+        "name": name,
+        "offsetAdj": 0.0,
+        "port": port,
+        "r25": 100000.0,
+        "rRef": 2200.0,
+        "slopeAdj": 0.0,
+        "state": "ok",
+        "type": "thermistor",
+    }
+
+
+def mcu_sensor(name: str) -> Dict[str, Any]:
+    return {
+        "lastReading": 34.2,
+        "name": name,
+        "offsetAdj": 0.0,
+        "port": "",
+        "slopeAdj": 0.0,
+        "state": "ok",
+        "type": "mcutemp",
+    }
+
+
+def fan(
+    name: str = "", sensors: Sequence[int] = (), limit: Optional[float] = None, rpm: int = -1
+) -> Dict[str, Any]:
+    """Return a fan; with sensors a thermostatic one that starts at ``limit`` °C."""
+    return {
+        "actualValue": 0.0,
+        "blip": 0.1,
+        "frequency": 500,
+        "max": 1.0,
+        "min": 0.1,
+        "name": name,
+        "requestedValue": 1.0 if sensors else 0.0,
+        "rpm": rpm,
+        "tachoPpr": 2.0,
+        "thermostatic": {
+            "heaters": list(sensors),
+            "highTemperature": limit,
+            "lowTemperature": limit,
+            "sensors": list(sensors),
+        },
+    }
+
+
+def microstepping(value: int = 16) -> Dict[str, Any]:
+    return {"interpolated": True, "value": value}
+
+
+def axis(
+    letter: str,
+    drivers: Sequence[str],
+    low: float,
+    high: float,
+    speed: float,
+    acceleration: float,
+    steps: float,
+    current: int = 1200,
+    visible: bool = True,
+) -> Dict[str, Any]:
+    """Return an axis that isn't homed; speed in mm/min, acceleration in mm/s²."""
+    return {
+        "acceleration": acceleration,
+        "babystep": 0.0,
+        "backlash": 0.0,
+        "current": current,
+        "drivers": list(drivers),
+        "homed": False,
+        "jerk": 600.0 if speed > 2000 else 24.0,
+        "letter": letter,
+        "machinePosition": 0.0,
+        "max": high,
+        "maxProbed": False,
+        "microstepping": microstepping(),
+        "min": low,
+        "minProbed": False,
+        "percentCurrent": 100,
+        "percentStstCurrent": 71,
+        "printingJerk": 600.0 if speed > 2000 else 24.0,
+        "reducedAcceleration": acceleration,
+        "speed": speed,
+        "stepsPerMm": steps,
+        "userPosition": 0.0,
+        "visible": visible,
+        "workplaceOffsets": [0.0] * 9,
+    }
+
+
+def extruder(driver: str, steps: float = 690.0, advance: float = 0.045) -> Dict[str, Any]:
+    return {
+        "acceleration": 3000.0,
+        "current": 800,
+        "driver": driver,
+        "factor": 1.0,
+        "filament": "",
+        "filamentDiameter": 1.75,
+        "jerk": 300.0,
+        "microstepping": microstepping(),
+        "nonlinear": {"a": 0.0, "b": 0.0, "upperLimit": 0.2},
+        "percentCurrent": 100,
+        "percentStstCurrent": 71,
+        "position": 0.0,
+        "pressureAdvance": advance,
+        "printingJerk": 300.0,
+        "rawPosition": 0.0,
+        "speed": 3600.0,
+        "stepsPerMm": steps,
+    }
+
+
+def tool(
+    number: int,
+    name: str,
+    heaters: Sequence[int],
+    extruders: Sequence[int],
+    fans: Sequence[int],
+    axes: Sequence[Sequence[int]],
+    offsets: Sequence[float],
+) -> Dict[str, Any]:
+    return {
+        "active": [0.0] * len(heaters),
+        "axes": [list(mapped) for mapped in axes],
+        "extruders": list(extruders),
+        "fans": list(fans),
+        "feedForward": [0.0] * len(heaters),
+        "filamentExtruder": extruders[0] if extruders else -1,
+        "heaters": list(heaters),
+        "isRetracted": False,
+        "mix": [1.0] + [0.0] * (len(extruders) - 1) if extruders else [],
+        "name": name,
+        "number": number,
+        "offsets": [float(offset) for offset in offsets],
+        "offsetsProbed": 0,
+        "retraction": {
+            "extraRestart": 0.0,
+            "length": 0.8,
+            "speed": 35.0,
+            "unretractSpeed": 25.0,
+            "zHop": 0.0,
+        },
+        "spindle": -1,
+        "spindleRpm": 0,
+        "standby": [0.0] * len(heaters),
+        "state": "off",
+    }
+
+
+def spindle(configured: bool = False) -> Dict[str, Any]:
+    return {
+        "active": 0,
+        "canReverse": configured,
+        "current": 0,
+        "frequency": 500 if configured else 0,
+        "idlePwm": 0.0,
+        "max": 24000 if configured else 10000,
+        "maxPwm": 1.0,
+        "min": 60,
+        "minPwm": 0.0,
+        "state": "stopped" if configured else "unconfigured",
+    }
+
+
+def endstop(high_end: bool = False) -> Dict[str, Any]:
+    return {"highEnd": high_end, "probe": None, "triggered": False, "type": "inputPin"}
+
+
+def probe() -> Dict[str, Any]:
+    return {
+        "calibrationTemperature": 25.0,
+        "deployedByUser": False,
+        "disablesHeaters": False,
+        "diveHeights": [5.0, 2.0],
+        "isCalibrated": None,
+        "lastStopHeight": 0.0,
+        "maxProbeCount": 3,
+        "measuredHeight": None,
+        "offsets": [-21.0, 4.5, -1.35],
+        "recoveryTime": 0.4,
+        "scanCoefficients": None,
+        "speed": 240.0,
+        "speeds": [480.0, 240.0],
+        "temperatureCoefficient": 0.0,
+        "temperatureCoefficients": [0.0, 0.0],
+        "threshold": 500,
+        "tolerance": 0.02,
+        "travelSpeed": 9000.0,
+        "triggerHeight": 1.35,
+        "type": 8,
+        "value": [0],
+    }
+
+
+def filament_monitor() -> Dict[str, Any]:
+    return {
+        "configured": {
+            "allMoves": False,
+            "mmPerRev": 25.8,
+            "percentMax": 130,
+            "percentMin": 70,
+            "sampleDistance": 3.0,
+        },
+        "enableMode": 1,
+        "enabled": True,
+        "status": "ok",
+        "type": "rotatingMagnet",
+    }
+
+
+def gcode_input(name: str) -> Dict[str, Any]:
+    return {
+        "active": True,
+        "axesRelative": False,
+        "compatibility": "Marlin" if name in MARLIN_CHANNELS else "RepRapFirmware",
+        "distanceUnit": "mm",
+        "drivesRelative": True,
+        "feedRate": 50.0,
+        "inMacro": False,
+        "inverseTimeMode": False,
+        "lineNumber": 0,
+        "macroRestartable": False,
+        "motionSystem": 0,
+        "name": name,
+        "selectedPlane": 0,
+        "stackDepth": 0,
+        "state": "idle",
+        "volumetric": False,
+    }
+
+
+def restore_point(axes: int) -> Dict[str, Any]:
+    return {
+        "coords": [0.0] * axes,
+        "extruderPos": 0.0,
+        "fanPwm": 0.0,
+        "feedRate": 50.0,
+        "ioBits": 0,
+        "laserPwm": None,
+        "toolNumber": -1,
+    }
+
+
+def no_file() -> Dict[str, Any]:
+    """Return ``job.file`` while no file is selected."""
+    return {
+        "customInfo": {},
+        "filament": [],
+        "fileName": None,
+        "firstLayerHeight": 0.0,
+        "generatedBy": None,
+        "height": 0.0,
+        "lastModified": None,
+        "layerHeight": 0.0,
+        "numLayers": 0,
+        "printTime": None,
+        "simulatedTime": None,
+        "size": 0,
+        "thumbnails": [],
+    }
+
+
+def no_job() -> Dict[str, Any]:
+    """Return ``job`` while nothing is printing."""
+    return {
+        "build": None,
+        "duration": None,
+        "file": no_file(),
+        "filePosition": 0,
+        "firstLayerDuration": None,
+        "lastDuration": None,
+        "lastFileName": None,
+        "lastWarmUpDuration": None,
+        "layer": None,
+        "layerTime": None,
+        "pauseDuration": None,
+        "rawExtrusion": None,
+        "timesLeft": {"filament": None, "file": None, "layer": None, "slicer": None},
+        "warmUpDuration": None,
+    }
+
+
+def input_list(release_35: bool, has_sbc: bool, aux2: bool) -> List[Optional[Dict[str, Any]]]:
+    """Return ``inputs``; channels that the board doesn't have are null, later ones are missing."""
+    missing = {"SBC": not has_sbc, "Aux2": not aux2, "File2": not aux2, "Queue2": not aux2}
+    names = [n for n in INPUT_NAMES if release_35 or n not in INPUTS_SINCE_35]
+    return [None if missing.get(name) else gcode_input(name) for name in names]
