@@ -72,6 +72,8 @@ class _Marked(dict):  # type: ignore[type-arg]
     """The marks as a tree: name to node; ``own`` holds the marks of the node itself."""
 
     own: frozenset[str] = frozenset()
+    axes: _Marked
+    """The root's alone: the node of ``move.axes``, of which not all elements are shown."""
 
 
 def _tree(marks: Mapping[str, frozenset[str]]) -> _Marked:
@@ -81,6 +83,7 @@ def _tree(marks: Mapping[str, frozenset[str]]) -> _Marked:
         for name in path.replace("[]", "").split("."):
             node = node.setdefault(name, _Marked())
         node.own = frozenset(own)
+    root.axes = root.setdefault("move", _Marked()).setdefault("axes", _Marked())
     return root
 
 
@@ -135,6 +138,7 @@ class _Query:
     def result(self, model: Any, tree: _Marked, envelope: dict[str, Any]) -> dict[str, Any]:
         """Return ``result``, and ``next`` where the first thing written is an array."""
         value, rest, node, opened = model, self.key, tree, 0
+        self.axes = tree.axes
         at_root = True
         # names and [n] write nothing: follow them until something is written
         while True:
@@ -268,12 +272,9 @@ class _Query:
 
     def shown(self, value: list[Any], node: _Marked) -> list[Any]:
         """Return the elements that the firmware admits to: all, but for long ``move.axes``."""
-        if self.axes_shown is not None and node is _AXES:
+        if self.axes_shown is not None and node is self.axes:
             return value[: self.axes_shown]
         return value
-
-
-_AXES = _MARKS_TREE["move"]["axes"]
 
 
 def _text_length(value: Any) -> int:
