@@ -1,5 +1,7 @@
 """The HTTP endpoints that answer from what is known; none of them waits for the printer."""
 
+import json
+
 import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
@@ -8,9 +10,15 @@ from .rrf import m409
 from .rrf.request import FLAGS_LENGTH, KEY_LENGTH
 
 
+def answer(data, status=200):
+    """Return data as compact JSON; Flask's own way may spread it over lines."""
+    text = json.dumps(data, separators=(",", ":"))
+    return flask.Response(text, status=status, mimetype="application/json")
+
+
 def refusal(status, text):
     """Return an answer that says, in one sentence, what a person can do about it."""
-    return flask.make_response(flask.jsonify(error=text), status)
+    return answer({"error": text}, status)
 
 
 def may_read():
@@ -32,7 +40,7 @@ class ModelApi:
         """Return the plugin's state."""
         if not may_read():
             return refusal(403, gettext("You may not read the machine's model."))
-        return flask.jsonify(self._status())
+        return answer(self._status())
 
     def get_model(self, arguments):
         """Return what M409 would answer to the key and flags asked for."""
@@ -43,7 +51,7 @@ class ModelApi:
             return refusal(503, self.why_empty())
         key = arguments.get("key", "")
         flags = arguments.get("flags", "")
-        return flask.jsonify(m409.answer(model, key, flags))
+        return answer(m409.answer(model, key, flags))
 
     def why_empty(self):
         """Return why no model is known."""

@@ -38,6 +38,7 @@ class CommBridge:
         self._is_rrf = False
         self._awaited = None
         self._tool_command_at = 0.0
+        self._polled = set()
         self.expects_refusal = False
         """Whether to look for the text that says that a polling command isn't known."""
 
@@ -51,6 +52,7 @@ class CommBridge:
         self._comm = None
         self._is_rrf = False
         self._awaited = None
+        self._polled = set()
         self.expects_refusal = False
 
     ##~~ octoprint.comm.protocol.firmware.info
@@ -127,7 +129,11 @@ class CommBridge:
         if gcode in ("T", "M109"):
             self._tool_command_at = self._clock()
         elif tags and POLL_TAG in tags:
-            self._notify("status_sent" if gcode == STATUS_REQUEST else "poll_sent")
+            if gcode == STATUS_REQUEST:
+                self._notify("status_sent")
+            else:
+                self._polled.add(cmd)
+                self._notify("poll_sent")
         return None
 
     ##~~ octoprint.comm.protocol.gcode.error
@@ -170,7 +176,11 @@ class CommBridge:
         merged.update(known.others)
         return merged
 
-    ##~~ what the worker asks
+    ##~~ what others ask
+
+    def has_polled(self, command):
+        """Return whether a command was one of the polls of this connection."""
+        return command in self._polled
 
     def blocked(self):
         """Return why no poll may go out, ``None`` where one may."""
@@ -213,4 +223,3 @@ class CommBridge:
         comm._toolBeforeChange = old
         comm._currentTool = number
         self._fire(Events.TOOL_CHANGE, {"old": old, "new": number})
-

@@ -62,7 +62,9 @@ class RrfModelPlugin(
         )
         self._push = ModelPush(self._tell_pages, self._model, self._status, clock)
         self._api = ModelApi(self._model, self._status)
-        self._terminal = TerminalFilter(lambda: self._settings.get_boolean(["hide_polls"]))
+        self._terminal = TerminalFilter(
+            lambda: self._settings.get_boolean(["hide_polls"]), self._bridge.has_polled
+        )
         self._simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
 
     ##~~ StartupPlugin, ShutdownPlugin
@@ -92,7 +94,15 @@ class RrfModelPlugin(
     ##~~ TemplatePlugin
 
     def get_template_configs(self):
-        return [{"type": "sidebar", "name": gettext("RepRapFirmware"), "icon": "microchip"}]
+        return [
+            {
+                "type": "sidebar",
+                "name": gettext("RepRapFirmware"),
+                "icon": "microchip",
+                "custom_bindings": True,
+            },
+            {"type": "settings", "name": gettext("RepRapFirmware"), "custom_bindings": False},
+        ]
 
     def is_template_autoescaped(self):
         return True

@@ -13,9 +13,6 @@ SENT = re.compile(r"(?:Send: |>>> )(?:N\d+ )?(?P<command>.*?)(?:\*\d+)?$")
 RECEIVED = re.compile(r"(?:Recv: |<<< ?)(?P<text>.*)$")
 """A line that came from the printer; group ``text`` is the line."""
 
-OWN_POLL = re.compile(r'M409 K"[^"]*" F"(?:d99fin|d\d+vno)(?:a\d+)?"|M408 S[0-5]')
-"""The commands that polling sends; what a person types looks otherwise."""
-
 OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins)":')
 
 PATIENCE = 20
@@ -25,7 +22,8 @@ PATIENCE = 20
 class _Follow:
     """How far one client has come through a poll: its reply, its ok, the M105 and its reply."""
 
-    def __init__(self):
+    def __init__(self, is_poll):
+        self._is_poll = is_poll
         self.expects = "poll"
         self.seen = 0
 
@@ -40,7 +38,7 @@ class _Follow:
         return self._hides_received(received["text"].strip())
 
     def _hides_sent(self, command):
-        if OWN_POLL.fullmatch(command):
+        if self._is_poll(command):
             self._expect("reply")
             return True
         if self.expects == "M105" and command == "M105":
@@ -69,11 +67,12 @@ class _Follow:
 class TerminalFilter:
     """Takes polls out of the lines that go to each client.
 
-    ``is_on()`` says whether to.
+    ``is_on()`` says whether to, ``is_poll(command)`` whether the plugin sent it.
     """
 
-    def __init__(self, is_on):
+    def __init__(self, is_on, is_poll):
         self._is_on = is_on
+        self._is_poll = is_poll
         self._clients = weakref.WeakKeyDictionary()
 
     def on_emit(self, socket, user, message, payload, *args, **kwargs):
@@ -82,7 +81,7 @@ class TerminalFilter:
             logs = payload.get("logs") if payload else None
             if logs:
                 if message == "history" or socket not in self._clients:
-                    self._clients[socket] = _Follow()
+                    self._clients[socket] = _Follow(self._is_poll)
                 hides = self._clients[socket].hides
                 payload["logs"] = [line for line in logs if not hides(line)]
         return True

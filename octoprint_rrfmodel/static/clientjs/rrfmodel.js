@@ -1,0 +1,29 @@
+/* OctoPrint.plugins.rrfmodel: the plugin's endpoints for the page and for other plugins. */
+(function (global, factory) {
+    if (typeof define === "function" && define.amd) {
+        define(["OctoPrintClient"], factory);
+    } else {
+        factory(global.OctoPrintClient);
+    }
+})(this, function (OctoPrintClient) {
+    class RrfModelClient {
+        constructor(base) {
+            this.base = base;
+            this.url = base.getBlueprintUrl("rrfmodel");
+        }
+
+        /** Resolves to the plugin's state. */
+        getStatus(opts) {
+            return this.base.get(this.url + "status", opts);
+        }
+
+        /** Resolves to what M409 answers to the key and flags, from the cached model. */
+        getModel(key, flags, opts) {
+            const query = $.param({key: key || "", flags: flags || ""});
+            return this.base.get(this.url + "model?" + query, opts);
+        }
+    }
+
+    OctoPrintClient.registerPluginComponent("rrfmodel", RrfModelClient);
+    return RrfModelClient;
+});

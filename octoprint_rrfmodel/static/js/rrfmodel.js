@@ -1,0 +1,279 @@
+/* The sidebar: what RepRapFirmware says of the machine, as it comes by push. */
+$(function () {
+    /**
+     * @typedef {{name: string, current: string, active: string, standby: string,
+     *            state: string, stateText: string, labelClass: string}} HeaterRow
+     * @typedef {{letter: string, position: string, homed: boolean, title: string}} AxisMark
+     */
+
+    /** Words for the machine's state, by state.status; a new one is shown as it came. */
+    const STATUS_TEXTS = {
+        starting: gettext("Starting"),
+        updating: gettext("Updating the firmware"),
+        halted: gettext("Halted"),
+        off: gettext("No motor supply"),
+        pausing: gettext("Pausing"),
+        resuming: gettext("Resuming"),
+        paused: gettext("Paused"),
+        cancelling: gettext("Cancelling"),
+        simulating: gettext("Simulating"),
+        processing: gettext("Printing from its card"),
+        changingTool: gettext("Changing the tool"),
+        busy: gettext("Busy"),
+        idle: gettext("Idle")
+    };
+
+    /** Words and label classes for a heater's state. */
+    const HEATER_STATES = {
+        off: {text: gettext("off"), label: ""},
+        standby: {text: gettext("standby"), label: "label-info"},
+        active: {text: gettext("active"), label: "label-success"},
+        fault: {text: gettext("fault"), label: "label-important"},
+        tuning: {text: gettext("tuning"), label: "label-warning"},
+        offline: {text: gettext("offline"), label: "label-warning"}
+    };
+
+    const BLOCKED_TEXTS = {
+        heating: gettext("the printer waits for a temperature"),
+        long_command: gettext("the printer is busy with a long command"),
+        streaming: gettext("a file is being sent to the printer's card"),
+        buffers: gettext("the printer is short of memory for its answers")
+    };
+
+    /** What a person is told, by the code of a warning; others have the server's text. */
+    const WARNING_TEXTS = {
+        halted: gettext(
+            "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
+        ),
+        off: gettext("The motors have no supply voltage.")
+    };
+
+    const HEATER_FAULT = /^heater_fault_(\d+)$/;
+
+    /** The plugin's own words in the page's language for a warning of the server. */
+    function warningText(warning) {
+        const fault = HEATER_FAULT.exec(warning.code);
+        if (fault) {
+            return _.sprintf(
+                gettext("Heater %(number)s reports a fault. Find the cause, then reset it with M562."),
+                {number: fault[1]}
+            );
+        }
+        return WARNING_TEXTS[warning.code] || warning.text;
+    }
+
+    function degrees(value) {
+        return typeof value === "number" ? value.toFixed(1) : "–";
+    }
+
+    /** A target as text: one that was never set is -273.15. */
+    function target(value) {
+        return typeof value === "number" && value > -273 ? value.toFixed(0) : "–";
+    }
+
+    /** @returns {HeaterRow} */
+    function heaterRow(name, heater) {
+        const state = HEATER_STATES[heater.state] || {text: heater.state || "", label: ""};
+        return {
+            name: name,
+            current: degrees(heater.current),
+            active: target(heater.active),
+            standby: target(heater.standby),
+            state: heater.state || "",
+            stateText: state.text,
+            labelClass: state.label
+        };
+    }
+
+    /** @returns {HeaterRow[]} one for each heater of each tool, then beds and chambers */
+    function heaterRows(model) {
+        const heat = model.heat || {};
+        const heaters = heat.heaters || [];
+        const rows = [];
+        (model.tools || []).forEach(function (tool) {
+            if (!tool) return;
+            (tool.heaters || []).forEach(function (index, place) {
+                if (!heaters[index]) return;
+                const title = tool.name || _.sprintf(gettext("Tool %(number)s"), tool);
+                rows.push(heaterRow(place ? title + " (" + (place + 1) + ")" : title, heaters[index]));
+            });
+        });
+        [
+            {slots: heat.bedHeaters, title: gettext("Bed")},
+            {slots: heat.chamberHeaters, title: gettext("Chamber")}
+        ].forEach(function (kind) {
+            (kind.slots || []).forEach(function (index, slot) {
+                if (!heaters[index]) return;
+                rows.push(heaterRow(slot ? kind.title + " " + slot : kind.title, heaters[index]));
+            });
+        });
+        return rows;
+    }
+
+    /** @returns {AxisMark[]} one for each axis that is meant to be seen */
+    function axisMarks(model) {
+        const axes = (model.move || {}).axes || [];
+        return axes
+            .filter(function (axis) {
+                return axis && axis.letter && axis.visible !== false;
+            })
+            .map(function (axis) {
+                const position = axis.machinePosition;
+                return {
+                    letter: axis.letter,
+                    position: typeof position === "number" ? position.toFixed(2) : "–",
+                    homed: !!axis.homed,
+                    title: axis.homed ? gettext("homed") : gettext("not homed")
+                };
+            });
+    }
+
+    function RrfModelSidebarViewModel(parameters) {
+        const self = this;
+
+        self.loginState = parameters[0];
+        self.access = parameters[1];
+
+        self.status = ko.observable({});
+        self.model = ko.observable({});
+        self.ageAtReceipt = undefined;
+        self.receivedAt = 0;
+        self.now = ko.observable(Date.now());
+        self.told = {};
+
+        self.mayRead = ko.pureComputed(function () {
+            return self.loginState.hasPermission(self.access.permissions.PLUGIN_RRFMODEL_READ);
+        });
+
+        self.isShown = ko.pureComputed(function () {
+            return self.mayRead() && !!self.status().connected && !!self.status().is_rrf;
+        });
+
+        self.state = ko.pureComputed(function () {
+            return self.model().state || {};
+        });
+
+        self.statusText = ko.pureComputed(function () {
+            const word = self.state().status;
+            return word ? STATUS_TEXTS[word] || word : gettext("Reading the model …");
+        });
+
+        self.toolText = ko.pureComputed(function () {
+            const number = self.state().currentTool;
+            if (typeof number !== "number") return "–";
+            if (number < 0) return gettext("none");
+            const tool = (self.model().tools || []).find(function (candidate) {
+                return candidate && candidate.number === number;
+            });
+            return tool && tool.name ? number + " (" + tool.name + ")" : String(number);
+        });
+
+        self.heaters = ko.pureComputed(function () {
+            return heaterRows(self.model());
+        });
+
+        self.axes = ko.pureComputed(function () {
+            return axisMarks(self.model());
+        });
+
+        self.warnings = ko.pureComputed(function () {
+            return (self.status().warnings || []).map(warningText);
+        });
+
+        self.firmwareText = ko.pureComputed(function () {
+            const firmware = self.status().firmware;
+            return firmware ? [firmware.name, firmware.version].filter(Boolean).join(" ") : "";
+        });
+
+        self.age = ko.pureComputed(function () {
+            if (typeof self.ageAtReceipt !== "number") return undefined;
+            return self.ageAtReceipt + Math.max(0, self.now() - self.receivedAt) / 1000;
+        });
+
+        self.ageText = ko.pureComputed(function () {
+            const age = self.age();
+            if (age === undefined) return gettext("no data yet");
+            if (age < 60) return _.sprintf(gettext("%(seconds)d s ago"), {seconds: age});
+            return _.sprintf(gettext("%(minutes)d min ago"), {minutes: age / 60});
+        });
+
+        self.isStale = ko.pureComputed(function () {
+            return !!self.status().stale;
+        });
+
+        self.reasonText = ko.pureComputed(function () {
+            const blocked = self.status().blocked;
+            if (blocked) return BLOCKED_TEXTS[blocked] || blocked;
+            return self.isStale() ? gettext("the printer does not answer") : "";
+        });
+
+        self.requestData = function () {
+            if (!self.mayRead()) return;
+            OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
+                self.fromStatus(status);
+                if (!status.is_rrf || !status.revision) return;
+                OctoPrint.plugins.rrfmodel.getModel("", "d99vn").done(function (answer) {
+                    self.model(answer.result || {});
+                });
+            });
+        };
+
+        self.fromStatus = function (status) {
+            self.ageAtReceipt = status.age === null ? undefined : status.age;
+            self.receivedAt = Date.now();
+            self.now(self.receivedAt);
+            self.status(status);
+            self.tell(status.warnings || []);
+        };
+
+        /** Tell each warning once; it may be told again when its cause was gone in between. */
+        self.tell = function (warnings) {
+            const told = {};
+            warnings.forEach(function (warning) {
+                told[warning.code] =
+                    self.told[warning.code] ||
+                    new PNotify({
+                        title: gettext("RepRapFirmware"),
+                        text: warningText(warning),
+                        title_escape: true,
+                        text_escape: true,
+                        type: "error",
+                        hide: false
+                    });
+            });
+            Object.keys(self.told).forEach(function (code) {
+                if (!told[code]) self.told[code].remove();
+            });
+            self.told = told;
+        };
+
+        self.onStartupComplete = self.requestData;
+        self.onServerReconnect = self.requestData;
+        self.onUserPermissionsChanged =
+            self.onUserLoggedIn =
+            self.onUserLoggedOut =
+                function () {
+                    self.model({});
+                    self.requestData();
+                };
+
+        self.onDataUpdaterPluginMessage = function (plugin, message) {
+            if (plugin !== "rrfmodel" || !self.mayRead()) return;
+            if (message.type === "reset") self.model({});
+            if (message.type === "model") {
+                self.model(Object.assign({}, self.model(), message.changed));
+            }
+            self.fromStatus(message.status);
+        };
+
+        window.setInterval(function () {
+            if (self.isShown() && !document.hidden) self.now(Date.now());
+        }, 1000);
+    }
+
+    OCTOPRINT_VIEWMODELS.push({
+        construct: RrfModelSidebarViewModel,
+        dependencies: ["loginStateViewModel", "accessViewModel"],
+        elements: ["#sidebar_plugin_rrfmodel"]
+    });
+});
