@@ -388,7 +388,7 @@ def test_flags_text_means(text, on, depth, start):
 ALPHABET = st.text(st.sampled_from("ab.[]^#*01 -+\"'°é\n") | st.characters(), max_size=20)
 
 
-@settings(max_examples=300)
+@settings(max_examples=200)
 @given(ANY_JSON, ALPHABET, ALPHABET, st.booleans())
 def test_never_raises_and_echoes_what_was_asked(model, key, flags, firmware):
     got = answer(model, key, flags, firmware=firmware)
