@@ -7,6 +7,7 @@ Messages without a line end of their own glue to the next line, before or behind
 from __future__ import annotations
 
 import json
+import re
 from typing import Any, NamedTuple
 
 MODEL_REPLY = '{"key":'
@@ -17,7 +18,21 @@ CONFIG_REPLY = '{"axisMins":'
 REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY)
 """How M409, M408 S0..S4, a reply short of buffers, and M408 S5 begin."""
 
+_NOT_INSIDE = r'(?<!":)(?<!":\[)(?<!\},)'
+"""Not behind what an object stands behind in another JSON: M36 and M20 answer with some, too."""
+
+_START = re.compile("|".join(_NOT_INSIDE + re.escape(start) for start in REPLY_STARTS))
+"""The start of a reply that isn't a part of something else."""
+
+_BEHIND_OBJECT = re.compile(r"\}[^,\]}]")
+"""An object's end and a character that can't stand behind it in JSON, unless in a text."""
+
+_TEXT_OR_BRACE = re.compile(r'"(?:[^"\\]|\\.)*"?|[{}]')
+"""A JSON string, to its end or that of all, or a brace that is in none."""
+
 _SCAN: Any = json.JSONDecoder(strict=False).scan_once  # type: ignore[attr-defined]
+
+_LEVELS = {"{": 1, "}": -1}
 
 
 class Found(NamedTuple):
@@ -41,7 +56,7 @@ def find_reply(line: str) -> Found | None:
         return None
     text = line[start:].rstrip()
     before = line[:start].strip("\0 \t\r\n")
-    if not before and text[-1] == "}" and text.count('{"key":') < 2:
+    if not before and text[-1] == "}" and not _BEHIND_OBJECT.search(text):
         return Found(text, "")
     end = _end(text)
     after = text[end:].strip("\0 \t")
@@ -56,8 +71,8 @@ def _start(line: str) -> int:
     """Return where the first reply of a line starts, -1 where none does."""
     if line.startswith(REPLY_STARTS):
         return 0
-    starts = [start for start in map(line.find, REPLY_STARTS) if start >= 0]
-    return min(starts, default=-1)
+    found = _START.search(line)
+    return found.start() if found else -1
 
 
 def _end(text: str) -> int:
@@ -66,4 +81,11 @@ def _end(text: str) -> int:
         end: int = _SCAN(text, 0)[1]
         return end
     except (StopIteration, ValueError, RecursionError):
-        return len(text) - 2 if text.endswith("ok") else len(text)
+        pass
+    # broken somewhere, or with a nan in it: whole all the same if its braces are balanced
+    level = 0
+    for found in _TEXT_OR_BRACE.finditer(text):
+        level += _LEVELS.get(found[0], 0)
+        if level == 0:
+            return found.end()
+    return len(text) - 2 if text.endswith("ok") else len(text)
