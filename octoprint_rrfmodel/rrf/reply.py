@@ -35,11 +35,11 @@ class NoBuffers(NamedTuple):
     """The board had no room for the answer; it names no key (3.5 GCodes2.cpp:3154)."""
 
 
-_LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"|-?\b(?:nan|inf)\b')
-"""A string, or one of the words that M408 prints for a number that is none."""
+_LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"?|-?\b(?:nan|inf)\b')
+"""A string, to its end or that of all, or a word that M408 prints for a number that is none."""
 
-_HUGE = re.compile(r"[0-9][eE]\+?[0-9]{3}")
-"""An exponent that may leave the range of a float."""
+_HUGE = re.compile(r"[0-9](?:[eE]\+?[0-9]{3}|[0-9]{300})")
+"""An exponent, or digits, that may leave the range of a float."""
 
 
 def _finite(text: str) -> float | None:
