@@ -113,27 +113,32 @@ def server(module_server_factory):
     return module_server_factory()
 
 
+# a server sees the boards of other tests too, so that no name may come twice
+BOARD_NUMBERS = itertools.count()
+
+
 @contextlib.contextmanager
 def _boards(ports_dir):
     """Yield a function that starts simulated boards; all of them are stopped in the end."""
+    from octoprint_rrfmodel.simulator.board import Board
     from octoprint_rrfmodel.simulator.pty import PtyBoard
 
     with contextlib.ExitStack() as stack:
 
-        def start(**options):
-            # unique among all boards of this process: a server finds those of other tests too
+        def start(*, baud=None, **options):
             link = ports_dir / f"rrf-{next(BOARD_NUMBERS)}"
-            return stack.enter_context(PtyBoard(link=link, **options))
+            return stack.enter_context(PtyBoard(Board(**options), link, baud=baud))
 
         yield start
 
 
-BOARD_NUMBERS = itertools.count()
-
-
 @pytest.fixture
 def board_factory(ports_dir):
-    """Function that returns a running ``PtyBoard`` with the options given."""
+    """Function that returns a running ``PtyBoard``: what a server connects to is its ``link``.
+
+    The options are those of ``simulator.board.Board``: ``machine``, ``firmware``, ``model``,
+    ``faults``, ``speed``; and ``baud`` for a line of that speed.
+    """
     with _boards(ports_dir) as start:
         yield start
 
@@ -167,7 +172,7 @@ def page(browser, page_errors):
     """A page with cookies of its own; what goes wrong in it lands in ``page_errors``."""
     context = browser.new_context(viewport={"width": 1280, "height": 900})
     page = context.new_page()
-    page.on("pageerror", lambda error: page_errors.append(f"exception: {error}"))
+    page.on("pageerror", lambda error: page_errors.append(error.stack or str(error)))
     page.on(
         "console",
         lambda message: message.type == "error" and page_errors.append(_with_place(message)),

@@ -236,6 +236,13 @@ class OctoPrintServer:
         except AssertionError as error:
             raise AssertionError(f"{error}; the state is {last!r}") from None
 
+    def wait_disconnected(self, timeout: float = 30) -> None:
+        """Return once no port is open; the versions have different words for it."""
+        words = ("Offline", "Closed", "Error")
+        waiting.wait_for(
+            lambda: self.state().startswith(words), timeout, "the end of the connection"
+        )
+
     def commands(self, *lines: str) -> None:
         """Send G-code as typed into the terminal."""
         _ok(self.post("/api/printer/command", json={"commands": list(lines)}))
@@ -267,8 +274,9 @@ def _ok(response: requests.Response) -> requests.Response:
     return response
 
 
-def _last_lines(text: str, count: int = 60) -> str:
-    return "\n".join(text.splitlines()[-count:])
+def _last_lines(text: str, count: int = 60, width: int = 300) -> str:
+    # an object model is one line of many kilobytes
+    return "\n".join(line[:width] for line in text.splitlines()[-count:])
 
 
 def _clean_environment() -> dict[str, str]:
