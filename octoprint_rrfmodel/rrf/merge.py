@@ -60,23 +60,24 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
     values = None
     changes: dict[str | int, Any] = {}
     for name, value in new.items():
-        before = old.get(name, _MISSING)
+        try:
+            before = old[name]
+        except KeyError:
+            before = _MISSING
         kind = type(value)
-        if kind is dict and type(before) is dict:
-            value, change = _merged_object(before, value, keep, levels - 1)
-            if change is None:
+        if kind is not dict and kind is not list:
+            # 0 is 0.0 (the firmware prints a zero without decimals), but true is not 1
+            if value == before and (kind is bool) is (type(before) is bool):
                 continue
-        elif kind is list and type(before) is list:
-            value, change = _merged_list(before, value, keep, levels - 1)
-            if change is None:
-                continue
-        # 0 is 0.0 (the firmware prints a zero without decimals), but true is not 1
-        elif value == before and (kind is bool) is (type(before) is bool):
-            continue
-        else:
-            if kind is dict or kind is list:
-                _measure(value, levels)
+            change: Any = True
+        elif kind is not type(before):
+            _measure(value, levels)
             change = True
+        else:
+            merge: Any = _merged_object if kind is dict else _merged_list
+            value, change = merge(before, value, keep, levels - 1)
+            if change is None:
+                continue
         if values is None:
             values = old.copy()
         values[name] = value
@@ -98,22 +99,21 @@ def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Mer
         raise NestedTooDeep("lists nested deeper than any model")
     values = None
     changes: dict[str | int, Any] = {}
-    for index, (before, value) in enumerate(zip(old, new)):
+    for index, value in enumerate(new[: len(old)]):
+        before = old[index]
         kind = type(value)
-        if kind is dict and type(before) is dict:
-            value, change = _merged_object(before, value, keep, levels - 1)
-            if change is None:
+        if kind is not dict and kind is not list:
+            if value == before and (kind is bool) is (type(before) is bool):
                 continue
-        elif kind is list and type(before) is list:
-            value, change = _merged_list(before, value, keep, levels - 1)
-            if change is None:
-                continue
-        elif value == before and (kind is bool) is (type(before) is bool):
-            continue
-        else:
-            if kind is dict or kind is list:
-                _measure(value, levels)
+            change: Any = True
+        elif kind is not type(before):
+            _measure(value, levels)
             change = True
+        else:
+            merge: Any = _merged_object if kind is dict else _merged_list
+            value, change = merge(before, value, keep, levels - 1)
+            if change is None:
+                continue
         if values is None:
             values = old[:]
         values[index] = value
@@ -129,18 +129,15 @@ def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Mer
 
 
 def _measure(value: Any, levels: int) -> None:
-    """Raise ``NestedTooDeep`` where a value has more than ``levels`` levels."""
+    """Raise ``NestedTooDeep`` where objects and lists are in more than ``levels`` levels."""
     row = [value]
     while row:
-        if levels < 0:
+        containers = [item for item in row if type(item) is dict or type(item) is list]
+        if containers and levels <= 0:
             raise NestedTooDeep("values nested deeper than any model")
-        below: list[Any] = []
-        for item in row:
-            if type(item) is dict:
-                below.extend(item.values())
-            elif type(item) is list:
-                below.extend(item)
-        row = below
+        row = []
+        for item in containers:
+            row.extend(item.values() if type(item) is dict else item)
         levels -= 1
 
 
