@@ -88,23 +88,18 @@ test-pure-py39: .venv/python-3.9/.ready
 	@touch $@
 
 lint: .venv/octoprint-1.11/.ready
-	@$(VENV_1.11)/bin/python -m ruff check --quiet
-	@$(VENV_1.11)/bin/python -m ruff format --check --quiet
-	@$(VENV_1.11)/bin/python -m mypy
+	@status=0; \
+	for check in "ruff check --quiet" "ruff format --check --quiet" mypy; do \
+		$(VENV_1.11)/bin/python -m $$check || { echo "lint: $$check failed"; status=1; }; \
+	done; \
+	exit $$status
 
 format: .venv/octoprint-1.11/.ready
 	@$(VENV_1.11)/bin/python -m ruff check --quiet --fix
 	@$(VENV_1.11)/bin/python -m ruff format
 
 bench: .venv/octoprint-2.0/.ready
-	@status=0; \
-	for script in $(sort $(wildcard tests/bench/*.py)); do \
-		case $$script in */_*) continue ;; esac; \
-		module=$$(echo $${script%.py} | tr / .); \
-		echo "== $$script"; \
-		$(VENV_2.0)/bin/python -m $$module || status=1; \
-	done; \
-	exit $$status
+	@$(VENV_2.0)/bin/python -m tests.bench
 
 demo: .venv/octoprint-$(DEMO_OCTOPRINT)/.ready
 	@exec .venv/octoprint-$(DEMO_OCTOPRINT)/bin/python -m extras.demo

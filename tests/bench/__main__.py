@@ -1,0 +1,13 @@
+"""Run every measurement and print each beside what it is compared with."""
+
+from tests.bench import hooks, live_reply
+
+
+def main():
+    """Print all measurements."""
+    live_reply.measure()
+    hooks.measure()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,101 @@
+"""From a line with a live reply to the model and what changed, against ``json.loads`` alone."""
+
+from __future__ import annotations
+
+import copy
+import json
+import random
+import statistics
+from typing import Any
+
+from octoprint_rrfmodel.rrf.line import find_reply
+from octoprint_rrfmodel.rrf.live import LiveReader
+from octoprint_rrfmodel.rrf.merge import patched
+from octoprint_rrfmodel.rrf.reply import decode
+from octoprint_rrfmodel.simulator.board import Board
+from tests.bench.timing import median_ratio, side_by_side, verdict
+
+REPLIES = 100
+LIMITS = {0.01: 2.0, 0.5: 3.2}
+
+
+def measure() -> None:
+    """Print the medians of both ways for each share of changed values."""
+    first = _live_reply()
+    print(
+        f"live reply of {len(_text(first))} bytes with {len(list(_values(first['result'])))} values"
+    )
+    for share, limit in LIMITS.items():
+        lines = _lines(first, share)
+        follow = _Follow()
+        ours, loads = side_by_side(lambda: follow.take(lines), lambda: _loads(lines))
+        assert follow.model == json.loads(lines[-1])["result"]
+        ratio = median_ratio(ours, loads)
+        print(
+            f"  {share:4.0%} changed: find, decode, merge, diff {_micros(ours):6.1f} us,"
+            f" json.loads {_micros(loads):6.1f} us, ratio {ratio:.2f} ({verdict(ratio, limit)})"
+        )
+
+
+class _Follow:
+    """The way a live reply goes in the plugin."""
+
+    def __init__(self) -> None:
+        self.model: dict[str, Any] = {}
+        self.changes: Any = None
+        self._reader = LiveReader()
+
+    def take(self, lines: list[str]) -> None:
+        for line in lines:
+            found = find_reply(line)
+            assert found is not None
+            members = self._reader.changed(found.reply)
+            if members is None:
+                members = decode(found.reply).result  # type: ignore[union-attr]
+                self._reader.remember(found.reply)
+            self.model, self.changes = patched(self.model, members)
+
+
+def _loads(lines: list[str]) -> None:
+    for line in lines:
+        json.loads(line)
+
+
+def _live_reply() -> dict[str, Any]:
+    """Return a live reply of about 4 kB: a four-tool machine's."""
+    reply = json.loads(Board("toolchanger").execute('M409 K"" F"d99fin"'))
+    assert isinstance(reply, dict)
+    return reply
+
+
+def _lines(first: dict[str, Any], share: float) -> list[str]:
+    """Return successive replies; from one to the next that share of the values changes."""
+    chance = random.Random(1)
+    current = first
+    lines = []
+    for _ in range(REPLIES):
+        current = copy.deepcopy(current)
+        places = list(_values(current["result"]))
+        numbers = [p for p in places if type(p[0][p[1]]) in (int, float)]
+        for parent, step in chance.sample(numbers, min(len(numbers), int(len(places) * share))):
+            parent[step] = round(parent[step] + chance.uniform(0.01, 9), 2)
+        lines.append(_text(current) + "\n")
+    return lines
+
+
+def _values(value: Any) -> Any:
+    """Yield where each plain value stands: its parent and its member or index."""
+    steps = value.items() if isinstance(value, dict) else enumerate(value)
+    for step, below in steps:
+        if isinstance(below, (dict, list)):
+            yield from _values(below)
+        else:
+            yield value, step
+
+
+def _text(reply: dict[str, Any]) -> str:
+    return json.dumps(reply, separators=(",", ":"))
+
+
+def _micros(times: list[float]) -> float:
+    return statistics.median(times) / REPLIES * 1e6
