@@ -6,12 +6,11 @@ import argparse
 import signal
 import sys
 import threading
-from typing import List, Optional
 
 from . import captured
 from .board import Board
 from .faults import FAULTS, UnknownFault, parse_fault
-from .firmware import UnknownFirmware, VERSIONS, firmware_called
+from .firmware import VERSIONS, UnknownFirmware, firmware_called
 from .machines import MACHINES, UnknownMachine, machine_called
 
 DEFAULT_FIRMWARE = "3.5.3"
@@ -54,10 +53,8 @@ def board_of(options: argparse.Namespace) -> Board:
     firmware = options.firmware
     model = None
     if options.model is not None:
-        found = captured.load(options.model)
-        firmware = firmware or captured.firmware_of(found)
-        firmware_called(firmware)
-        model = captured.completed(found, firmware)
+        model = captured.load(options.model)
+        firmware = firmware or captured.firmware_of(model)
     firmware = firmware or DEFAULT_FIRMWARE
     firmware_called(firmware)
     machine = options.machine or "cartesian"
@@ -67,7 +64,7 @@ def board_of(options: argparse.Namespace) -> Board:
     return Board(machine, firmware, model=model, faults=options.fault, speed=options.speed)
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run until SIGTERM or SIGINT; return the exit code."""
     options = parser().parse_args(arguments)
     if options.list:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict
+from typing import Any
 
 from .firmware import Firmware
 
@@ -24,7 +24,7 @@ class Mainboard:
     heaters: int
     queue_length: int
     """Moves that fit in the movement queue."""
-    limits: Dict[str, int] = field(default_factory=dict)
+    limits: dict[str, int] = field(default_factory=dict)
     is_duet2: bool = False
     has_v12: bool = False
     wifi: bool = True
@@ -35,9 +35,9 @@ class Mainboard:
         """Return the number of output buffers (RRF 3.5 Configuration.h:173)."""
         return firmware.duet2_buffers if self.is_duet2 else DUET3_BUFFERS
 
-    def model(self, firmware: Firmware) -> Dict[str, Any]:
+    def model(self, firmware: Firmware) -> dict[str, Any]:
         """Return ``boards[0]``."""
-        members: Dict[str, Any] = {
+        members: dict[str, Any] = {
             "accelerometer": None,
             "canAddress": None if self.is_duet2 else 0,
             "directDisplay": None,
@@ -65,7 +65,7 @@ class Mainboard:
         return members
 
 
-def _limits(**differing: int) -> Dict[str, int]:
+def _limits(**differing: int) -> dict[str, int]:
     limits = {
         "axes": 10,
         "axesPlusExtruders": 12,
@@ -157,7 +157,7 @@ DUET2_WIFI = Mainboard(
 EXPANSION_DATE = "2024-09-30 15:47:52"
 
 
-def toolboard(address: int, firmware: Firmware) -> Dict[str, Any]:
+def toolboard(address: int, firmware: Firmware) -> dict[str, Any]:
     """Return a CAN-connected tool board, an element of ``boards`` from index 1 on."""
     return {
         "accelerometer": {"orientation": 20, "points": 0, "runs": 0},

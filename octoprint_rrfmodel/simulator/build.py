@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from typing import Any, Dict, List, Optional
+from collections.abc import Sequence
+from typing import Any
 
 from . import parts
 from .boards import toolboard
@@ -14,23 +15,24 @@ from .members import for_firmware
 BOOT_TIME = "2024-11-05T08:00:00"
 """Where the simulated wall clock starts."""
 
-SEQS = (
-    "boards directories fans global heat inputs job ledStrips move network reply scanner "
-    "sensors spindles state tools volChanges volumes"
-).split()
+SEQS = """
+    boards directories fans global heat inputs job ledStrips move network reply scanner sensors
+    spindles state tools volChanges volumes
+"""
+"""Members of ``seqs``."""
 
 
-def _slots(heaters, count: int) -> List[int]:
+def _slots(heaters: Sequence[int], count: int) -> list[int]:
     return list(heaters) + [-1] * (count - len(heaters))
 
 
-def _by_number(tools: List[Dict[str, Any]]) -> List[Optional[Dict[str, Any]]]:
+def _by_number(tools: list[dict[str, Any]]) -> list[dict[str, Any] | None]:
     """Return ``tools`` as RRF reports them: the index is the tool number, gaps are null."""
-    found: Dict[int, Dict[str, Any]] = {tool["number"]: tool for tool in tools}
+    found: dict[int, dict[str, Any]] = {tool["number"]: tool for tool in tools}
     return [found.get(number) for number in range(max(found, default=-1) + 1)]
 
 
-def _move(machine: Machine, queue_length: int) -> Dict[str, Any]:
+def _move(machine: Machine, queue_length: int) -> dict[str, Any]:
     axes = machine.axes()
     printing, travel = machine.accelerations
     first_motor = sum(len(axis["drivers"]) for axis in axes)
@@ -102,7 +104,7 @@ def _move(machine: Machine, queue_length: int) -> Dict[str, Any]:
     }
 
 
-def _state(machine: Machine, axes: int) -> Dict[str, Any]:
+def _state(machine: Machine, axes: int) -> dict[str, Any]:
     return {
         "atxPower": True if machine.has_atx else None,
         "atxPowerPort": "pson" if machine.has_atx else None,
@@ -131,12 +133,12 @@ def _state(machine: Machine, axes: int) -> Dict[str, Any]:
     }
 
 
-def _sensors(machine: Machine, axes: int) -> Dict[str, Any]:
-    endstops: List[Optional[Dict[str, Any]]] = [parts.endstop() for _ in range(axes)]
+def _sensors(machine: Machine, axes: int) -> dict[str, Any]:
+    endstops: list[dict[str, Any] | None] = [parts.endstop() for _ in range(axes)]
     if machine.has_probe:
         endstops[2] = {"highEnd": False, "probe": 0, "triggered": False, "type": "zProbeAsEndstop"}
     return {
-        "analog": machine.sensors(),
+        "analog": list(machine.sensors()),
         "endstops": endstops,
         "filamentMonitors": [parts.filament_monitor()] if machine.has_filament_monitor else [],
         "gpIn": [],
@@ -144,7 +146,7 @@ def _sensors(machine: Machine, axes: int) -> Dict[str, Any]:
     }
 
 
-def _network(machine: Machine, wifi: bool) -> Dict[str, Any]:
+def _network(machine: Machine, wifi: bool) -> dict[str, Any]:
     interface = {
         "actualIP": "192.0.2.17",
         "firmwareVersion": "2.1.0" if wifi else None,
@@ -165,7 +167,7 @@ def _network(machine: Machine, wifi: bool) -> Dict[str, Any]:
     }
 
 
-def _volumes() -> List[Dict[str, Any]]:
+def _volumes() -> list[dict[str, Any]]:
     return [
         {
             "capacity": 15931539456,
@@ -200,12 +202,12 @@ DIRECTORIES = {
 }
 
 
-def full_model(machine: Machine, firmware: Firmware) -> Dict[str, Any]:
+def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     """Return a new object model of that machine, as after ``config.g``, clocks at zero."""
     board = mainboard(machine, firmware)
     move = _move(machine, board.queue_length)
     axes = len(move["axes"])
-    seqs: Dict[str, Any] = {name: 0 for name in SEQS}
+    seqs: dict[str, Any] = {name: 0 for name in SEQS.split()}
     seqs["volChanges"] = [0, 0]
     release_35 = firmware.at_least(3, 5)
     model = {
@@ -238,4 +240,5 @@ def full_model(machine: Machine, firmware: Firmware) -> Dict[str, Any]:
         "tools": _by_number(machine.tools()),
         "volumes": _volumes(),
     }
-    return for_firmware(model, firmware)
+    whole: dict[str, Any] = for_firmware(model, firmware)
+    return whole

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from typing import Dict, List, NamedTuple, Optional
+from typing import NamedTuple
 
 from .sample import SAMPLE_FILES, SAMPLE_FOLDERS
 
@@ -25,9 +25,9 @@ class Card:
     """Files by their full path (``0:/gcodes/a.gcode``); names compare without case, as FAT does."""
 
     def __init__(self) -> None:
-        self._files: Dict[str, bytearray] = {}
-        self._dates: Dict[str, str] = {}
-        self._folders: List[str] = []
+        self._files: dict[str, bytearray] = {}
+        self._dates: dict[str, str] = {}
+        self._folders: list[str] = []
         self.is_mounted = True
         for folder in SAMPLE_FOLDERS:
             self.make_folder(folder)
@@ -46,7 +46,7 @@ class Card:
             full = f"{folder}/{name}"
         return full[:2] + posixpath.normpath(full[2:] or "/").rstrip("/")
 
-    def _stored(self, path: str) -> Optional[str]:
+    def _stored(self, path: str) -> str | None:
         wanted = path.lower()
         return next((known for known in self._files if known.lower() == wanted), None)
 
@@ -69,20 +69,20 @@ class Card:
     def append(self, path: str, text: str) -> None:
         self._files[self._stored(path) or path] += text.encode("utf-8", "surrogateescape")
 
-    def read(self, path: str) -> Optional[bytes]:
+    def read(self, path: str) -> bytes | None:
         """Return the content; ``None`` where there is no such file."""
         stored = self._stored(path) if self.is_mounted else None
         return None if stored is None else bytes(self._files[stored])
 
-    def lines(self, path: str) -> Optional[List[str]]:
+    def lines(self, path: str) -> list[str] | None:
         content = self.read(path)
         return None if content is None else content.decode("utf-8", "replace").splitlines()
 
-    def name_of(self, path: str) -> Optional[str]:
+    def name_of(self, path: str) -> str | None:
         """Return the path as the card spells it."""
         return self._stored(path)
 
-    def date(self, path: str) -> Optional[str]:
+    def date(self, path: str) -> str | None:
         stored = self._stored(path)
         return self._dates.get(stored) if stored else None
 
@@ -97,7 +97,7 @@ class Card:
             return True
         return False
 
-    def entries(self, folder: str) -> List[Entry]:
+    def entries(self, folder: str) -> list[Entry]:
         """Return what is in a folder, folders among the files as the card has them."""
         inside = folder.rstrip("/").lower() + "/"
         found = [

@@ -8,14 +8,15 @@ lies in its input (RRF 3.5 GCodes.cpp:770-785, GCodes4.cpp:1885).
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Generator
 from types import GeneratorType
-from typing import TYPE_CHECKING, Any, Callable, Deque, Dict, Generator, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Union
 
 from .command import Command, GCodeError, SyntaxProblem, commands_of, without_comment
 from .serial_line import Kind, Reply, framed, parse_line
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 Condition = Callable[[], bool]
 Running = Generator[Condition, None, Any]
@@ -37,33 +38,33 @@ class Macro(Exception):
 class Channel:
     """Input, modal state and the running command of one channel."""
 
-    def __init__(self, board: Board, name: str, write: Callable[[str], None], echoes: bool = True):
+    def __init__(self, board: Core, name: str, write: Callable[[str], None], echoes: bool = True):
         self._board = board
         self.name = name
         self._write = write
         self._echoes = echoes
-        self.lines: Deque[str] = deque()
-        self._pending: Deque[Command] = deque()
-        self._running: Optional[Running] = None
-        self._current: Optional[Command] = None
-        self._wait: Optional[Condition] = None
-        self._stack: List[Dict[str, Any]] = []
+        self.lines: deque[str] = deque()
+        self._pending: deque[Command] = deque()
+        self._running: Running | None = None
+        self._current: Command | None = None
+        self._wait: Condition | None = None
+        self._stack: list[dict[str, Any]] = []
         self.macro_depth = 0
         self.macros = 0
         """Macros of the firmware's own that run, homing and the like."""
-        self.upload: Optional[str] = None
+        self.upload: str | None = None
         """File that an open M28 writes to."""
-        self.status_request: Optional[str] = None
+        self.status_request: str | None = None
         """The last of M105, M408 S0 and M409 that came on this channel."""
         self.requires_checksum = False
         self.awaits_acknowledgement = False
         self.is_stuck = False
-        self.blocked_since: Optional[float] = None
+        self.blocked_since: float | None = None
         self.reported_at = 0.0
-        self.variables: Dict[str, Any] = {}
+        self.variables: dict[str, Any] = {}
 
     @property
-    def input(self) -> Dict[str, Any]:
+    def input(self) -> dict[str, Any]:
         """The channel's element of ``inputs``."""
         return self._board.input(self.name)
 
@@ -147,7 +148,7 @@ class Channel:
         except SyntaxProblem as problem:
             self._answer(Reply(self._problem_text(problem)), True)
 
-    def _commands(self, text: str) -> List[Command]:
+    def _commands(self, text: str) -> list[Command]:
         board = self._board
         bare = without_comment(text, board.is_cnc) if ";" in text or board.is_cnc else text
         if not bare or bare.isspace():
@@ -181,6 +182,8 @@ class Channel:
 
     def _resume(self) -> None:
         command, running = self._current, self._running
+        if command is None or running is None:
+            return
         try:
             self._wait = next(running)
             return
@@ -231,7 +234,7 @@ class Channel:
         if text:
             self._write(text)
 
-    def macro(self, lines: List[str]) -> Running:
+    def macro(self, lines: list[str]) -> Running:
         """Run lines as a macro of the current command; their replies get no ``ok``."""
         self.macro_depth += 1
         try:
@@ -261,4 +264,4 @@ def as_reply(outcome: Outcome) -> Reply:
     """Return what a command function returned as a reply."""
     if outcome is None:
         return Reply()
-    return outcome if isinstance(outcome, Reply) else Reply(outcome)
+    return outcome if isinstance(outcome, Reply) else Reply(str(outcome))

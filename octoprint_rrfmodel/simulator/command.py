@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable
 
 from . import expression
 
@@ -45,7 +45,7 @@ class GCodeError(Exception):
 class SyntaxProblem(Exception):
     """A command that can't be read; ``column`` counts from 1 where it is known."""
 
-    def __init__(self, text: str, column: Optional[int] = None):
+    def __init__(self, text: str, column: int | None = None):
         super().__init__(text)
         self.text = text
         self.column = column
@@ -59,7 +59,7 @@ class Command:
     def __init__(
         self,
         letter: str,
-        number: Optional[int],
+        number: int | None,
         fraction: int,
         text: str,
         column: int,
@@ -73,7 +73,7 @@ class Command:
         """What follows the command, as written."""
         self.column = column
         """Where ``text`` starts in the line, from 0."""
-        self._parameters: Optional[Dict[str, Tuple[str, int]]] = None
+        self._parameters: dict[str, tuple[str, int]] | None = None
         self._lookup = lookup
 
     @property
@@ -85,10 +85,10 @@ class Command:
         return f"{self.letter}{number}" + (f".{self.fraction}" if self.fraction >= 0 else "")
 
     @property
-    def raw(self) -> Dict[str, Tuple[str, int]]:
+    def raw(self) -> dict[str, tuple[str, int]]:
         """Parameter letter → value as written and its column. A quoted ``'x`` is lower case."""
         if self._parameters is None:
-            found: Dict[str, Tuple[str, int]] = {}
+            found: dict[str, tuple[str, int]] = {}
             for match in _PARAMETER.finditer(self.text):
                 letter = match.group(1)
                 letter = letter[1].lower() if letter[0] == "'" else letter.upper()
@@ -121,7 +121,7 @@ class Command:
         except ValueError:
             raise SyntaxProblem(f"{self.name}: expected number after", column) from None
 
-    def float(self, letter: str, default: Optional[float] = None) -> Optional[float]:
+    def number_of(self, letter: str, default: float | None = None) -> float | None:
         """Return the number behind the letter; ``default`` without the letter."""
         value = self.value(letter)
         if isinstance(value, list):
@@ -133,24 +133,22 @@ class Command:
                 )
             return default
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise SyntaxProblem(
-                f"{self.name}: expected a numeric expression", self.raw[letter][1]
-            )
+            raise SyntaxProblem(f"{self.name}: expected a numeric expression", self.raw[letter][1])
         return float(value)
 
-    def integer(self, letter: str, default: Optional[int] = None) -> Optional[int]:
-        value = self.float(letter)
+    def integer(self, letter: str, default: int | None = None) -> int | None:
+        value = self.number_of(letter)
         return default if value is None else int(value)
 
-    def floats(self, letter: str) -> Optional[List[float]]:
+    def numbers(self, letter: str) -> list[float] | None:
         """Return the numbers of ``S1:2:3`` as a list; ``None`` without the letter."""
         value = self.value(letter)
         if isinstance(value, list):
             return [float(part) for part in value]
-        number = self.float(letter)
+        number = self.number_of(letter)
         return None if number is None else [number]
 
-    def string(self, letter: str, longest: Optional[int] = None) -> Optional[str]:
+    def string(self, letter: str, longest: int | None = None) -> str | None:
         """Return the text behind the letter, which must be quoted or an expression."""
         if letter not in self.raw:
             return None
@@ -176,14 +174,14 @@ class Command:
         inner = text[1:-1].replace('""', '"')
         return _APOSTROPHE.sub(lambda m: m.group(1).lower(), inner)
 
-    def coordinates(self) -> Dict[str, float]:
+    def coordinates(self) -> dict[str, float]:
         """Return letter → number for a move, the common form quickly."""
         if self._parameters is None:
             found = _MOVE.findall(self.text)
             rest = _MOVE.sub("", self.text)
             if not rest or rest.isspace():
                 return {letter: float(number) for letter, number in found}
-        return {letter: self.float(letter) or 0.0 for letter in self.raw}
+        return {letter: self.number_of(letter) or 0.0 for letter in self.raw}
 
 
 def without_comment(line: str, parentheses: bool = False) -> str:
@@ -208,12 +206,12 @@ def _end_of_command(line: str, start: int) -> int:
     return len(line)
 
 
-def commands_of(line: str, lookup: Lookup, last_move: Optional[int] = None) -> List[Command]:
+def commands_of(line: str, lookup: Lookup, last_move: int | None = None) -> list[Command]:
     """Return the commands of a line without its comment; :class:`SyntaxProblem` where it has none.
 
     ``last_move`` is the G number that a line with coordinates only continues (CNC mode).
     """
-    found: List[Command] = []
+    found: list[Command] = []
     at = 0
     while at < len(line) and not line[at:].isspace():
         head = _HEAD.match(line, at)
@@ -241,7 +239,7 @@ def commands_of(line: str, lookup: Lookup, last_move: Optional[int] = None) -> L
     return found
 
 
-def _tool_of(text: Optional[str], lookup: Lookup) -> Optional[int]:
+def _tool_of(text: str | None, lookup: Lookup) -> int | None:
     if text is None:
         return None
     if text.startswith("{"):

@@ -8,7 +8,8 @@ Platform.cpp and others); M408 has its own (RepRap.cpp:1131 on), see :mod:`.m408
 
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 DECIMALS: Mapping[str, int] = {
     "boards[].mcuTemp.current": 1,
@@ -190,9 +191,9 @@ DECIMALS: Mapping[str, int] = {
 }
 
 
-def _tree(table: Mapping[str, int]) -> Dict[str, Any]:
+def _tree(table: Mapping[str, int]) -> dict[str, Any]:
     """Return the table as nested dictionaries; the elements of an array are below ``[]``."""
-    tree: Dict[str, Any] = {}
+    tree: dict[str, Any] = {}
     for path, decimals in table.items():
         steps = path.replace("[]", ".[]").split(".")
         node = tree

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import re
-from typing import Any, Callable, List
+from typing import Any, Callable
 
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)|(?P<text>"(?:[^"]|"")*")"""
@@ -50,21 +50,22 @@ def text_of(value: Any) -> str:
     return str(value)
 
 
-def _tokens(text: str) -> List[Any]:
-    found: List[Any] = []
+def _tokens(text: str) -> list[Any]:
+    found: list[Any] = []
     at = 0
     text = text.rstrip()
     while at < len(text):
         match = _TOKEN.match(text, at)
         if match is None:
             raise BadExpression("expected an expression")
-        found.append((match.lastgroup, match.group(match.lastgroup)))
+        kind = match.lastgroup or ""
+        found.append((kind, match.group(kind)))
         at = match.end()
     return found
 
 
 class _Parser:
-    def __init__(self, tokens: List[Any], lookup: Callable[[str], Any]):
+    def __init__(self, tokens: list[Any], lookup: Callable[[str], Any]):
         self._tokens = tokens
         self._at = 0
         self._lookup = lookup
@@ -138,6 +139,6 @@ def evaluate(text: str, lookup: Callable[[str], Any]) -> Any:
         raise BadExpression("expected an expression") from None
 
 
-def arguments(text: str, lookup: Callable[[str], Any]) -> List[Any]:
+def arguments(text: str, lookup: Callable[[str], Any]) -> list[Any]:
     """Return the values of a comma-separated list, as ``echo`` takes them."""
     return list(evaluate("{" + text + ",}", lookup))

@@ -8,13 +8,13 @@ seen and a host must survive anyway.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional
+from typing import TYPE_CHECKING, Callable, NamedTuple
 
 from . import incidents
 from .om import OUT_OF_BUFFERS
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 UNDER_VOLTAGE = b"Warning: VIN under-voltage event (11.0V)"
 """RRF sends this without a line end (RRF 3.5 Platform.cpp:1396-1411)."""
@@ -31,7 +31,7 @@ class UnknownFault(ValueError):
     """The fault asked for isn't in :data:`FAULTS`, or its argument can't be read."""
 
 
-def _inserted(data: bytes, extra: bytes, at: Optional[int] = None) -> bytes:
+def _inserted(data: bytes, extra: bytes, at: int | None = None) -> bytes:
     at = len(data) // 2 if at is None else at
     return data[:at] + extra + data[at:]
 
@@ -60,7 +60,7 @@ class OnReply(NamedTuple):
     """Whether the argument is the number of replies; otherwise every n-th one is hit."""
 
 
-ON_REPLY: Dict[str, OnReply] = {
+ON_REPLY: dict[str, OnReply] = {
     "lost_ok": OnReply(_without_ok, takes_count=False),
     "extra_ok": OnReply(lambda data: data + b"ok\n"),
     "truncated": OnReply(_cut, json_only=True),
@@ -80,15 +80,16 @@ class Fault(NamedTuple):
     """A row of :data:`FAULTS`."""
 
     summary: str
-    default: Optional[str] = None
+    default: str | None = None
     """Argument where none is given."""
-    start: Optional[Callable[[Board, Optional[str]], None]] = None
-    stop: Optional[Callable[[Board], None]] = None
+    start: Callable[[Core, str | None], None] | None = None
+    stop: Callable[[Core], None] | None = None
+    survives_reset: bool = True
     is_event: bool = False
     """Happens once; there is nothing to switch off."""
 
 
-FAULTS: Dict[str, Fault] = {
+FAULTS: dict[str, Fault] = {
     "lost_ok": Fault("every n-th ok is lost (1), or :once", "1"),
     "extra_ok": Fault("an ok too many after the next n replies (all)"),
     "glued_before": Fault("text without a line end in front of the next n replies (all)"),
@@ -119,23 +120,36 @@ FAULTS: Dict[str, Fault] = {
         is_event=True,
     ),
     "heater_fault": Fault(
-        "heater n is in a fault (1)", "1", incidents.heater_fault, incidents.end_heater_faults
+        "heater n is in a fault (1)",
+        "1",
+        incidents.heater_fault,
+        incidents.end_heater_faults,
+        False,
     ),
     "filament_error": Fault(
-        "filament monitor n reports (0)", "0", incidents.filament_error, incidents.filament_back
+        "filament monitor n reports (0)",
+        "0",
+        incidents.filament_error,
+        incidents.filament_back,
+        False,
     ),
     "driver_error": Fault(
         "driver n of the mainboard reports (0)",
         "0",
         incidents.driver_error,
         incidents.driver_well,
+        survives_reset=False,
     ),
     "vin_off": Fault(
         "no motor supply, status off", None, incidents.power_lost, incidents.power_back
     ),
-    "halted": Fault("as after M112", None, incidents.halt, incidents.end_halt),
+    "halted": Fault("as after M112", None, incidents.halt, incidents.end_halt, False),
     "message_box": Fault(
-        "a macro opens a message box of mode n (2)", "2", incidents.open_box, incidents.close_box
+        "a macro opens a message box of mode n (2)",
+        "2",
+        incidents.open_box,
+        incidents.close_box,
+        False,
     ),
     "debug_text": Fault("debug lines in the middle of the next n replies (all)"),
     "unsolicited": Fault("a temperature line every s seconds that nobody asked for (1)", "1"),
@@ -147,13 +161,13 @@ FAULTS: Dict[str, Fault] = {
 """Name → fault, in the order of ``--list``."""
 
 
-def parse_fault(text: str) -> tuple:
+def parse_fault(text: str) -> tuple[str, str | None]:
     """Return name and argument of ``name[:argument]``; :class:`UnknownFault` says what's wrong."""
-    name, _, argument = text.partition(":")
+    name, _, given = text.partition(":")
     fault = FAULTS.get(name)
     if fault is None:
         raise UnknownFault(f"unknown fault {name!r}, known are {', '.join(FAULTS)}")
-    argument = argument.strip() or fault.default
+    argument = given.strip() or fault.default
     if argument is not None and not re.fullmatch(r">?\d+(\.\d+)?|once", argument):
         raise UnknownFault(f"fault {name!r} takes a number, not {argument!r}")
     return name, argument
@@ -162,10 +176,10 @@ def parse_fault(text: str) -> tuple:
 class Faults:
     """The faults that are on, with what is left of their counts."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
-        self._on: Dict[str, Optional[str]] = {}
-        self._seen: Dict[str, int] = {}
+        self._on: dict[str, str | None] = {}
+        self._seen: dict[str, int] = {}
         self._report_at = 0.0
 
     def inject(self, text: str) -> None:
@@ -187,7 +201,16 @@ class Faults:
             if stop is not None:
                 stop(self._board)
 
-    def names(self) -> List[str]:
+    def after_reset(self) -> None:
+        """Forget what a restart puts right, and let the rest strike again."""
+        for name, argument in list(self._on.items()):
+            fault = FAULTS[name]
+            if not fault.survives_reset:
+                del self._on[name]
+            elif fault.start is not None:
+                fault.start(self._board, argument)
+
+    def names(self) -> list[str]:
         return list(self._on)
 
     def is_on(self, name: str) -> bool:

@@ -7,17 +7,18 @@ what OctoPrint waits for: sizes are missing, and no "SD card ok" is ever said.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Dict, List, Optional
+from typing import TYPE_CHECKING, Any
 
 from .card import Entry
 from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
+from .decimals import TREE
 from .fileinfo import file_info
-from .om import encoded, quoted, with_decimals, TREE
+from .om import encoded, quoted, with_decimals
 from .serial_line import Kind, Reply
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 LIST_BYTES = 2600
 """Text length at which a listing goes on with ``next``: the buffers aren't endless."""
@@ -30,7 +31,7 @@ def _folder(command: Command) -> str:
     return command.string("P") or "0:/gcodes/"
 
 
-def list_files(board: Board, channel: Channel, command: Command) -> Outcome:
+def list_files(board: Core, channel: Channel, command: Command) -> Outcome:
     """M20: S0 names, S2 JSON names, S3 JSON with sizes and dates."""
     kind = command.integer("S", 0) or 0
     asked = _folder(command)
@@ -52,10 +53,10 @@ def list_files(board: Board, channel: Channel, command: Command) -> Outcome:
 
 
 def _is_marlin(channel: Channel) -> bool:
-    return channel.input["compatibility"] == "Marlin"
+    return bool(channel.input["compatibility"] == "Marlin")
 
 
-def _page(head: str, parts: List[str], first: int, tail: str) -> str:
+def _page(head: str, parts: list[str], first: int, tail: str) -> str:
     """Return a listing that stops at :data:`LIST_BYTES` and says where it goes on."""
     text, following = head, 0
     for index in range(first, len(parts)):
@@ -66,7 +67,7 @@ def _page(head: str, parts: List[str], first: int, tail: str) -> str:
     return f'{text}],"next":{following}{tail}}}'
 
 
-def _names(board: Board, asked: str, path: str, first: int, error: int) -> str:
+def _names(board: Core, asked: str, path: str, first: int, error: int) -> str:
     if error:
         return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
     parts = [quoted(("*" if e.is_folder else "") + e.name) for e in board.card.entries(path)]
@@ -74,7 +75,7 @@ def _names(board: Board, asked: str, path: str, first: int, error: int) -> str:
     return _page(head, parts, first, ',"err":0')
 
 
-def _details(board: Board, asked: str, path: str, first: int, error: int) -> str:
+def _details(board: Core, asked: str, path: str, first: int, error: int) -> str:
     if error:
         return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
     parts = [_detail(entry) for entry in board.card.entries(path)]
@@ -87,7 +88,7 @@ def _detail(entry: Entry) -> str:
     return f'{{"type":"{kind}","name":{quoted(entry.name)},{size}"date":"{entry.date}"}}'
 
 
-def mount(board: Board, channel: Channel, command: Command) -> Outcome:
+def mount(board: Core, channel: Channel, command: Command) -> Outcome:
     """M21."""
     slot = command.integer("P", 0) or 0
     if slot:
@@ -97,7 +98,7 @@ def mount(board: Board, channel: Channel, command: Command) -> Outcome:
     return "SDHC card mounted in slot 0, capacity 15.9Gb"
 
 
-def unmount(board: Board, channel: Channel, command: Command) -> Outcome:
+def unmount(board: Core, channel: Channel, command: Command) -> Outcome:
     """M22."""
     slot = command.integer("P", 0) or 0
     if board.job.is_printing:
@@ -108,7 +109,7 @@ def unmount(board: Board, channel: Channel, command: Command) -> Outcome:
     return f"SD card {slot} may now be removed"
 
 
-def start_upload(board: Board, channel: Channel, command: Command) -> Outcome:
+def start_upload(board: Core, channel: Channel, command: Command) -> Outcome:
     """M28: every line until M29 goes to the file and gets no ok (RRF 3.5 GCodeInput.cpp:20-55)."""
     name = command.unquoted_text()
     if not name:
@@ -119,7 +120,7 @@ def start_upload(board: Board, channel: Channel, command: Command) -> Outcome:
     return Reply(f"Writing to file: {name}", Kind.UPLOAD)
 
 
-def end_upload(board: Board, channel: Channel, command: Command) -> Outcome:
+def end_upload(board: Core, channel: Channel, command: Command) -> Outcome:
     """M29."""
     if channel.upload is None:
         return None
@@ -128,7 +129,7 @@ def end_upload(board: Board, channel: Channel, command: Command) -> Outcome:
     return "Done saving file."
 
 
-def delete(board: Board, channel: Channel, command: Command) -> Outcome:
+def delete(board: Core, channel: Channel, command: Command) -> Outcome:
     """M30."""
     name = command.unquoted_text()
     path = board.card.path_of(name)
@@ -139,7 +140,7 @@ def delete(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def information(board: Board, channel: Channel, command: Command) -> Outcome:
+def information(board: Core, channel: Channel, command: Command) -> Outcome:
     """M36: file information; without a name of the file being printed. M36.1: a thumbnail."""
     if command.fraction == 1:
         return _thumbnail(board, command)
@@ -152,7 +153,7 @@ def information(board: Board, channel: Channel, command: Command) -> Outcome:
         found = board.job.path
         path, extra = found or "", f',"printDuration":{int(board.job.duration)}'
     content = board.card.read(found) if found else None
-    if content is None:
+    if found is None or content is None:
         return Reply(f'{{"err":1,"fileName":{quoted(name)}}}\n', Kind.LONG)
     info = board.members_of(file_info(path, content, board.card.date(found)), "job.file")
     return Reply(_information(info) + extra + "}\n", Kind.LONG)
@@ -175,7 +176,7 @@ FIELDS = (
 """Members of M36 in the order they are printed."""
 
 
-def _information(info: Dict[str, Any]) -> str:
+def _information(info: dict[str, Any]) -> str:
     shown = with_decimals(info, TREE["job"]["file"])
     text = '{"err":0'
     for field in FIELDS:
@@ -184,7 +185,7 @@ def _information(info: Dict[str, Any]) -> str:
     return text
 
 
-def _thumbnail(board: Board, command: Command) -> Outcome:
+def _thumbnail(board: Core, command: Command) -> Outcome:
     """A piece of a thumbnail's text (3.4 and later)."""
     name, start = command.string("P") or "", command.integer("S", 0) or 0
     content = board.card.read(board.card.path_of(name))
@@ -203,9 +204,9 @@ def _thumbnail(board: Board, command: Command) -> Outcome:
     )
 
 
-def card_information(board: Board, channel: Channel, command: Command) -> Outcome:
+def card_information(board: Core, channel: Channel, command: Command) -> Outcome:
     """M39: text, with S2 JSON."""
-    volume: Optional[Dict[str, Any]] = (board.data.get("volumes") or [None])[0]
+    volume: dict[str, Any] | None = (board.data.get("volumes") or [None])[0]
     if command.integer("S", 0) != 2:
         return (
             "SD card in slot 0: capacity 15.9Gb, partition size 15.9Gb, free space 15.7Gb, "
@@ -220,7 +221,7 @@ def card_information(board: Board, channel: Channel, command: Command) -> Outcom
     )
 
 
-def run_macro(board: Board, channel: Channel, command: Command) -> Running:
+def run_macro(board: Core, channel: Channel, command: Command) -> Running:
     """M98: the macro's own replies add no ok."""
     name = command.string("P") or ""
     path = board.card.path_of(name, "0:/sys")

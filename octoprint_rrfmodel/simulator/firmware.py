@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Optional, Tuple
 
 
 class UnknownFirmware(ValueError):
@@ -16,7 +15,7 @@ class Firmware:
 
     version: str
     """As ``M115`` and ``boards[0].firmwareVersion`` spell it."""
-    release: Tuple[int, ...]
+    release: tuple[int, ...]
     """For comparisons with the versions of the object model's members."""
     date: str
     time: str = ""
@@ -41,7 +40,7 @@ class Firmware:
     """Output buffers of a Duet 2 (24 in 3.3)."""
     has_important_flag: bool = True
     """Flag ``i`` (3.4 and later)."""
-    axes_limit: Optional[int] = 9
+    axes_limit: int | None = 9
     """``move.axes`` elements without ``f`` or ``a`` (3.5 Move.cpp:69)."""
     leaf_ends_key: bool = False
     """Up to 3.4 whatever follows a number, text or boolean in the key is ignored."""
@@ -137,7 +136,7 @@ _V205 = Firmware(
     needs_duet2=True,
 )
 
-VERSIONS: Dict[str, Firmware] = {
+VERSIONS: dict[str, Firmware] = {
     "2.05": _V205,
     "3.3": _V33,
     "3.4": _V34,

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Callable, Dict
+from typing import TYPE_CHECKING, Callable
 
-from . import files, jobcodes, messagebox, moves, reports, settings, tools
+from . import files, heaters, homing, jobcodes, messagebox, meta, moves, reports, settings, tools
 from .channel import Channel, Outcome
 from .command import Command, GCodeError
 from .serial_line import Reply
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
-Function = Callable[["Board", Channel, Command], Outcome]
+Function = Callable[["Core", Channel, Command], Outcome]
 
-TABLE: Dict[str, Function] = {}
-for _module in (moves, tools, reports, files, jobcodes, messagebox, settings):
+MODULES = (
+    settings,
+    moves,
+    homing,
+    tools,
+    heaters,
+    reports,
+    files,
+    jobcodes,
+    messagebox,
+    meta,
+)
+
+TABLE: dict[str, Function] = {}
+for _module in MODULES:
     TABLE.update(_module.TABLE)
 
 WHILE_HALTED = frozenset(("M105", "M112", "M115", "M122", "M408", "M409", "M999"))
@@ -39,7 +52,7 @@ def key_of(command: Command) -> str:
     return f"{command.letter}{command.number}"
 
 
-def execute(board: Board, channel: Channel, command: Command) -> Outcome:
+def execute(board: Core, channel: Channel, command: Command) -> Outcome:
     """Return what the command's function returns; an unknown one is tried as a macro."""
     key = key_of(command)
     if board.is_halted and key not in WHILE_HALTED:
@@ -51,7 +64,7 @@ def execute(board: Board, channel: Channel, command: Command) -> Outcome:
     return function(board, channel, command)
 
 
-def _unknown(board: Board, channel: Channel, command: Command) -> Outcome:
+def _unknown(board: Core, channel: Channel, command: Command) -> Outcome:
     lines = board.card.lines(f"0:/sys/{command.name}.g")
     if lines is not None:
         return channel.macro(lines)

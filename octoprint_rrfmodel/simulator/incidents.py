@@ -7,10 +7,10 @@ GCodes3.cpp:1520-1573).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List, Optional
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 OVER_TEMPERATURE = 0x02
 """Bit of ``boards[].drivers[].status``."""
@@ -19,7 +19,7 @@ BOX_TITLE = "Simulated"
 BOX_MESSAGE = "Is the simulated bed clear?"
 
 
-def _event(board: Board, text: str, pauses: bool = True, opens_box: bool = True) -> None:
+def _event(board: Core, text: str, pauses: bool = True, opens_box: bool = True) -> None:
     """Announce a fault as that firmware does, and pause a print from the card."""
     prints = board.job.is_printing and pauses
     if not board.firmware.has_events:
@@ -33,11 +33,11 @@ def _event(board: Board, text: str, pauses: bool = True, opens_box: bool = True)
         board.job.pause_for_fault()
 
 
-def _index(argument: Optional[str]) -> int:
+def _index(argument: str | None) -> int:
     return int(float(argument or 0))
 
 
-def heater_fault(board: Board, argument: Optional[str]) -> None:
+def heater_fault(board: Core, argument: str | None) -> None:
     index = _index(argument)
     heater = board.thermal.heater(index)
     if heater is None:
@@ -52,34 +52,33 @@ def heater_fault(board: Board, argument: Optional[str]) -> None:
     )
 
 
-def end_heater_faults(board: Board) -> None:
+def end_heater_faults(board: Core) -> None:
     for heater in board.thermal.heaters:
         if heater is not None and heater["state"] == "fault":
             heater["state"] = "off"
 
 
-def _monitors(board: Board) -> List[Any]:
+def _monitors(board: Core) -> list[Any]:
     return board.data["sensors"].get("filamentMonitors") or []
 
 
-def filament_error(board: Board, argument: Optional[str]) -> None:
+def filament_error(board: Core, argument: str | None) -> None:
     """With M591 S1 this is only in the model unless the board itself prints."""
     index = _index(argument)
     monitors = _monitors(board)
-    if index < len(monitors) and monitors[index] is not None:
-        if "status" in monitors[index]:
-            monitors[index]["status"] = "tooLittleMovement"
+    if index < len(monitors) and monitors[index] is not None and "status" in monitors[index]:
+        monitors[index]["status"] = "tooLittleMovement"
     if board.job.is_printing:
         _event(board, f"Filament error on extruder {index}: tooLittleMovement", opens_box=False)
 
 
-def filament_back(board: Board) -> None:
+def filament_back(board: Core) -> None:
     for monitor in _monitors(board):
         if monitor is not None and "status" in monitor:
             monitor["status"] = "ok"
 
 
-def driver_error(board: Board, argument: Optional[str]) -> None:
+def driver_error(board: Core, argument: str | None) -> None:
     index = _index(argument)
     drivers = board.data["boards"][0].get("drivers") or []
     if index < len(drivers):
@@ -87,34 +86,34 @@ def driver_error(board: Board, argument: Optional[str]) -> None:
     _event(board, f"Driver {index} error: over temperature shutdown", opens_box=False)
 
 
-def driver_well(board: Board) -> None:
+def driver_well(board: Core) -> None:
     for driver in board.data["boards"][0].get("drivers") or []:
         driver["status"] &= ~OVER_TEMPERATURE
 
 
-def power_lost(board: Board, argument: Optional[str]) -> None:
+def power_lost(board: Core, argument: str | None) -> None:
     board.has_power = False
     board.data["boards"][0]["vIn"]["current"] = 0.2
     board.motors_lost()
 
 
-def power_back(board: Board) -> None:
+def power_back(board: Core) -> None:
     board.has_power = True
     board.data["boards"][0]["vIn"]["current"] = 24.1
 
 
-def halt(board: Board, argument: Optional[str]) -> None:
+def halt(board: Core, argument: str | None) -> None:
     board.halt()
 
 
-def end_halt(board: Board) -> None:
+def end_halt(board: Core) -> None:
     board.is_halted = False
 
 
-def open_box(board: Board, argument: Optional[str]) -> None:
+def open_box(board: Core, argument: str | None) -> None:
     mode = min(_index(argument), board.firmware.box_modes)
     board.boxes.open(BOX_MESSAGE, BOX_TITLE, mode, timeout=0.0 if mode > 1 else 30.0)
 
 
-def close_box(board: Board) -> None:
+def close_box(board: Core) -> None:
     board.boxes.close_all()

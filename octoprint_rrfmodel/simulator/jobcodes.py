@@ -10,37 +10,37 @@ from .command import Command, GCodeError
 from .moves import standstill
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 PAUSE_SECONDS = 2.0
 CANCEL_SECONDS = 2.0
 ONLY_IN_FILE = "use M226 and M601 only within a file being printed"
 
 
-def _open(board: Board, command: Command, name: str) -> None:
+def _open(board: Core, command: Command, name: str) -> None:
     if board.job.is_printing:
         raise GCodeError("Cannot set file to print, because a file is already being printed")
     found = board.card.name_of(board.card.path_of(name))
     content = board.card.read(found) if found else None
     if found is None or content is None:
-        raise GCodeError(f"GCode file \"{name}\" not found")
+        raise GCodeError(f'GCode file "{name}" not found')
     board.job.select(found, content)
 
 
-def select_file(board: Board, channel: Channel, command: Command) -> Outcome:
+def select_file(board: Core, channel: Channel, command: Command) -> Outcome:
     """M23: name and size aren't told."""
     _open(board, command, command.unquoted_text())
     return "File opened\nFile selected"
 
 
-def select_and_start(board: Board, channel: Channel, command: Command) -> Outcome:
+def select_and_start(board: Core, channel: Channel, command: Command) -> Outcome:
     """M32."""
     reply = select_file(board, channel, command)
     board.job.start()
     return reply
 
 
-def simulate(board: Board, channel: Channel, command: Command) -> Outcome:
+def simulate(board: Core, channel: Channel, command: Command) -> Outcome:
     """M37: goes through a file without moving; tells the time at the end."""
     name = command.string("P")
     if name is None:
@@ -50,7 +50,7 @@ def simulate(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def start_or_resume(board: Board, channel: Channel, command: Command) -> Outcome:
+def start_or_resume(board: Core, channel: Channel, command: Command) -> Outcome:
     """M24."""
     job = board.job
     if job.state == jobs.PAUSED:
@@ -62,13 +62,13 @@ def start_or_resume(board: Board, channel: Channel, command: Command) -> Outcome
     raise GCodeError("Cannot print, because no file is selected!")
 
 
-def _start(board: Board, channel: Channel) -> Running:
+def _start(board: Core, channel: Channel) -> Running:
     with board.running_macro(channel):
         yield from board.run_system_macro(channel, "start.g")
     board.job.start()
 
 
-def _resume(board: Board, channel: Channel) -> Running:
+def _resume(board: Core, channel: Channel) -> Running:
     board.job.state = jobs.RESUMING
     with board.running_macro(channel):
         yield from board.run_system_macro(channel, "resume.g")
@@ -78,7 +78,7 @@ def _resume(board: Board, channel: Channel) -> Running:
     return "Printing resumed"
 
 
-def pause(board: Board, channel: Channel, command: Command) -> Outcome:
+def pause(board: Core, channel: Channel, command: Command) -> Outcome:
     """M25: answers after pause.g."""
     if board.job.state != jobs.PRINTING:
         what = "Printing is already paused!" if board.job.is_printing else ""
@@ -86,12 +86,10 @@ def pause(board: Board, channel: Channel, command: Command) -> Outcome:
     return _pause(board, channel)
 
 
-def _pause(board: Board, channel: Channel) -> Running:
+def _pause(board: Core, channel: Channel) -> Running:
     board.job.state = jobs.PAUSING
     board.save_restore_point(1)
-    where = " ".join(
-        f"{axis['letter']}{axis['userPosition']:.1f}" for axis in board.motion.axes
-    )
+    where = " ".join(f"{axis['letter']}{axis['userPosition']:.1f}" for axis in board.motion.axes)
     if channel.name != "File":
         yield lambda: board.channels["File"].is_idle
     yield standstill(board)
@@ -103,7 +101,7 @@ def _pause(board: Board, channel: Channel) -> Running:
     return f"Printing paused at {where}"
 
 
-def stop(board: Board, channel: Channel, command: Command) -> Outcome:
+def stop(board: Core, channel: Channel, command: Command) -> Outcome:
     """M0, M1, M2: cancels a paused print with cancel.g, ends a file from within."""
     job = board.job
     if channel.name == "File":
@@ -113,12 +111,12 @@ def stop(board: Board, channel: Channel, command: Command) -> Outcome:
     return _cancel(board, channel)
 
 
-def _end(board: Board) -> Running:
+def _end(board: Core) -> Running:
     yield standstill(board)
     board.when(lambda: True, lambda: board.job.finish(cancelled=False))
 
 
-def _cancel(board: Board, channel: Channel) -> Running:
+def _cancel(board: Core, channel: Channel) -> Running:
     was_printing = board.job.is_printing
     if was_printing:
         board.job.state = jobs.CANCELLING
@@ -130,7 +128,7 @@ def _cancel(board: Board, channel: Channel) -> Running:
         board.job.finish(cancelled=True)
 
 
-def set_position(board: Board, channel: Channel, command: Command) -> Outcome:
+def set_position(board: Core, channel: Channel, command: Command) -> Outcome:
     """M26."""
     position = command.integer("S")
     if position is None:
@@ -139,7 +137,7 @@ def set_position(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def tell_progress(board: Board, channel: Channel, command: Command) -> Outcome:
+def tell_progress(board: Core, channel: Channel, command: Command) -> Outcome:
     """M27."""
     if not board.job.is_printing:
         return "Not SD printing."
@@ -147,14 +145,14 @@ def tell_progress(board: Board, channel: Channel, command: Command) -> Outcome:
     return f"SD printing byte {board.job.position}/{size}"
 
 
-def pause_from_file(board: Board, channel: Channel, command: Command) -> Outcome:
+def pause_from_file(board: Core, channel: Channel, command: Command) -> Outcome:
     """M226, M600, M601: only the file itself may."""
     if channel.name != "File":
         raise GCodeError(ONLY_IN_FILE)
     return _pause(board, channel)
 
 
-def objects(board: Board, channel: Channel, command: Command) -> Outcome:
+def objects(board: Core, channel: Channel, command: Command) -> Outcome:
     """M486: T count, S current, A name, P cancel, U resume, C cancel the current one."""
     job = board.job
     if not job.is_printing:

@@ -7,13 +7,14 @@ they do on any other channel.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from . import parts
 from .fileinfo import file_info
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 LOOK_AHEAD = 4
 """Lines read at once; a job's channel is never far ahead of the movement queue."""
@@ -35,21 +36,21 @@ SIMULATION_SPEED = 40.0
 class Job:
     """The file that is selected or printing, and its times."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
-        self.state: Optional[str] = None
-        self.path: Optional[str] = None
+        self.state: str | None = None
+        self.path: str | None = None
         self.is_simulation = False
-        self._lines: List[bytes] = []
+        self._lines: list[bytes] = []
         self._next = 0
         self.position = 0
         self.duration = 0.0
         self._pause_seconds = 0.0
-        self._warm_up: Optional[float] = None
+        self._warm_up: float | None = None
         self._layer_started = 0.0
-        self._objects: List[Dict[str, Any]] = []
+        self._objects: list[dict[str, Any]] = []
         self.current_object = -1
-        self._ended_by: Optional[str] = None
+        self._ended_by: str | None = None
 
     @property
     def is_printing(self) -> bool:
@@ -61,8 +62,9 @@ class Job:
         return self.state == PRINTING
 
     @property
-    def data(self) -> Dict[str, Any]:
-        return self._board.data["job"]
+    def data(self) -> dict[str, Any]:
+        job: dict[str, Any] = self._board.data["job"]
+        return job
 
     def fraction_printed(self) -> float:
         size = (self.data.get("file") or {}).get("size") or 0
@@ -110,7 +112,7 @@ class Job:
         self._board.volume_open(True)
         self._board.bump("job")
 
-    def _build(self) -> Dict[str, Any]:
+    def _build(self) -> dict[str, Any]:
         return {
             "currentObject": self.current_object,
             "m486Names": bool(self._objects),
@@ -186,7 +188,7 @@ class Job:
         job["build"] = self._build()
         self._times_left(job)
 
-    def _times_left(self, job: Dict[str, Any]) -> None:
+    def _times_left(self, job: dict[str, Any]) -> None:
         left = job.setdefault("timesLeft", {})
         fraction = self.fraction_printed()
         printing = max(0.0, self.duration - (self._warm_up or 0.0))
@@ -234,7 +236,7 @@ class Job:
             self.state = PAUSED
             self._board.channels["File"].lines.clear()
 
-    def name_object(self, number: int, name: Optional[str] = None) -> None:
+    def name_object(self, number: int, name: str | None = None) -> None:
         """Make M486 object ``number`` the current one; -1 for none."""
         while number >= len(self._objects):
             index = len(self._objects)

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable
 
 from . import parts
 from .boards import DUET2_WIFI, MB6HC, MB6XD, MINI5PLUS, Mainboard
 from .firmware import Firmware
 
+
 class UnknownMachine(ValueError):
     """The machine asked for isn't in :data:`MACHINES`; the text names those that are."""
 
 
-def _no_heaters() -> List[Dict[str, Any]]:
+def _none() -> list[Any]:
     return []
 
 
@@ -24,16 +26,16 @@ class Machine:
 
     summary: str
     board: Mainboard
-    axes: Callable[[], List[Dict[str, Any]]]
-    kinematics: Dict[str, Any]
-    heaters: Callable[[], List[Dict[str, Any]]] = _no_heaters
+    axes: Callable[[], list[dict[str, Any]]]
+    kinematics: dict[str, Any]
+    heaters: Callable[[], list[dict[str, Any]]] = _none
     beds: Sequence[int] = ()
     """Heater of each bed slot."""
     chambers: Sequence[int] = ()
-    sensors: Callable[[], List[Optional[Dict[str, Any]]]] = _no_heaters
-    fans: Callable[[], List[Dict[str, Any]]] = _no_heaters
+    sensors: Callable[[], Sequence[dict[str, Any] | None]] = _none
+    fans: Callable[[], list[dict[str, Any]]] = _none
     extruders: int = 0
-    tools: Callable[[], List[Dict[str, Any]]] = _no_heaters
+    tools: Callable[[], list[dict[str, Any]]] = _none
     tool_boards: Sequence[int] = ()
     """CAN addresses."""
     spindles: int = 0
@@ -41,18 +43,18 @@ class Machine:
     has_probe: bool = True
     has_filament_monitor: bool = False
     has_atx: bool = False
-    led_strips: Tuple[Tuple[str, str], ...] = ()
+    led_strips: tuple[tuple[str, str], ...] = ()
     gp_out: int = 0
-    variables: Dict[str, Any] = field(default_factory=dict)
+    variables: dict[str, Any] = field(default_factory=dict)
     name: str = "Simulated printer"
-    accelerations: Tuple[float, float] = (20000.0, 20000.0)
+    accelerations: tuple[float, float] = (20000.0, 20000.0)
 
 
-def matrix(*rows: Sequence[float]) -> List[List[float]]:
+def matrix(*rows: Sequence[float]) -> list[list[float]]:
     return [list(map(float, row)) for row in rows]
 
 
-def cartesian(axes: int = 3, name: str = "cartesian") -> Dict[str, Any]:
+def cartesian(axes: int = 3, name: str = "cartesian") -> dict[str, Any]:
     """Return cartesian kinematics for any number of axes."""
     unit = [[float(row == column) for column in range(axes)] for row in range(axes)]
     return {
@@ -64,7 +66,7 @@ def cartesian(axes: int = 3, name: str = "cartesian") -> Dict[str, Any]:
     }
 
 
-def tilt(xs: Sequence[float] = (), ys: Sequence[float] = ()) -> Dict[str, Any]:
+def tilt(xs: Sequence[float] = (), ys: Sequence[float] = ()) -> dict[str, Any]:
     return {
         "correctionFactor": 1.0,
         "lastCorrections": [0.0] * len(xs),
@@ -75,7 +77,7 @@ def tilt(xs: Sequence[float] = (), ys: Sequence[float] = ()) -> Dict[str, Any]:
     }
 
 
-def core_xy() -> Dict[str, Any]:
+def core_xy() -> dict[str, Any]:
     return {
         "forwardMatrix": matrix((0.5, 0.5, 0), (0.5, -0.5, 0), (0, 0, 1)),
         "inverseMatrix": matrix((1, 1, 0), (1, -1, 0), (0, 0, 1)),
@@ -85,8 +87,8 @@ def core_xy() -> Dict[str, Any]:
     }
 
 
-def linear_delta() -> Dict[str, Any]:
-    def tower(x: float, y: float, adjustment: float) -> Dict[str, Any]:
+def linear_delta() -> dict[str, Any]:
+    def tower(x: float, y: float, adjustment: float) -> dict[str, Any]:
         return {
             "angleCorrection": 0.0,
             "diagonal": 288.4,
@@ -111,7 +113,7 @@ def linear_delta() -> Dict[str, Any]:
     }
 
 
-def xyz(x: float, y: float, z: float) -> List[Dict[str, Any]]:
+def xyz(x: float, y: float, z: float) -> list[dict[str, Any]]:
     return [
         parts.axis("X", ["0.0"], 0.0, x, 18000.0, 3000.0, 80.0),
         parts.axis("Y", ["0.1"], 0.0, y, 18000.0, 3000.0, 80.0),
@@ -119,11 +121,11 @@ def xyz(x: float, y: float, z: float) -> List[Dict[str, Any]]:
     ]
 
 
-def bed(sensor: int, limit: float = 125.0) -> Dict[str, Any]:
+def bed(sensor: int, limit: float = 125.0) -> dict[str, Any]:
     return parts.heater(sensor, limit, heating_rate=0.45, cooling_rate=0.21, dead_time=2.8)
 
 
-def hotend(sensor: int, limit: float = 290.0) -> Dict[str, Any]:
+def hotend(sensor: int, limit: float = 290.0) -> dict[str, Any]:
     return parts.heater(sensor, limit, heating_rate=2.2, cooling_rate=0.55, dead_time=5.1)
 
 
@@ -137,31 +139,31 @@ VARIABLES = {
 }
 
 
-def _corexy_axes() -> List[Dict[str, Any]]:
+def _corexy_axes() -> list[dict[str, Any]]:
     axes = xyz(350.0, 350.0, 400.0)
     axes[2]["drivers"] = ["0.2", "0.3", "0.4"]
     return axes
 
 
-def _idex_axes() -> List[Dict[str, Any]]:
+def _idex_axes() -> list[dict[str, Any]]:
     axes = xyz(420.0, 310.0, 340.0)
     axes[0]["max"] = 355.0
     return axes + [parts.axis("U", ["0.3"], 65.0, 420.0, 18000.0, 3000.0, 80.0)]
 
 
-def _changer_axes() -> List[Dict[str, Any]]:
+def _changer_axes() -> list[dict[str, Any]]:
     axes = xyz(330.0, 240.0, 300.0)
     return axes + [parts.axis("C", ["0.3"], -45.0, 360.0, 10000.0, 800.0, 91.02, visible=False)]
 
 
-def _delta_axes() -> List[Dict[str, Any]]:
+def _delta_axes() -> list[dict[str, Any]]:
     axes = xyz(120.0, 120.0, 330.215)
     for index, axis in enumerate(axes):
         axis.update(drivers=[str(index)], speed=15000.0, min=-120.0 if index < 2 else -0.5)
     return axes
 
 
-def _cnc_axes() -> List[Dict[str, Any]]:
+def _cnc_axes() -> list[dict[str, Any]]:
     axes = xyz(800.0, 600.0, 120.0)
     for index, axis in enumerate(axes):
         axis["drivers"] = [str(index)]
@@ -169,7 +171,7 @@ def _cnc_axes() -> List[Dict[str, Any]]:
     return axes
 
 
-def _many_axes() -> List[Dict[str, Any]]:
+def _many_axes() -> list[dict[str, Any]]:
     axes = xyz(500.0, 400.0, 300.0)
     for index, letter in enumerate("UVWABCDabc"):
         driver = f"{1 + index // 3}.{index % 3}"
@@ -177,7 +179,7 @@ def _many_axes() -> List[Dict[str, Any]]:
     return axes
 
 
-def _changer_tools() -> List[Dict[str, Any]]:
+def _changer_tools() -> list[dict[str, Any]]:
     offsets = ((0.0, 0.0, 0.0, 0.0), (0.21, -0.08, 0.05, 0.0), (-0.14, 0.3, -0.12, 0.0))
     return [
         parts.tool(number, name, [heater], [heater - 1], [heater - 1], ((0,), (1,)), offset)
@@ -190,7 +192,7 @@ def _changer_tools() -> List[Dict[str, Any]]:
     ]
 
 
-MACHINES: Dict[str, Machine] = {
+MACHINES: dict[str, Machine] = {
     "cartesian": Machine(
         "cartesian printer, one tool, bed",
         MINI5PLUS,

@@ -6,11 +6,12 @@ is in all of them.
 
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping, Optional, Tuple
+from collections.abc import Mapping
+from typing import Any
 
 from .firmware import Firmware
 
-Release = Tuple[int, ...]
+Release = tuple[int, ...]
 
 SINCE_34: Release = (3, 4)
 SINCE_35: Release = (3, 5)
@@ -74,8 +75,8 @@ _OLD = {
 }
 
 
-def _table() -> Dict[str, Tuple[Optional[Release], Optional[Release]]]:
-    table: Dict[str, Tuple[Optional[Release], Optional[Release]]] = {}
+def _table() -> dict[str, tuple[Release | None, Release | None]]:
+    table: dict[str, tuple[Release | None, Release | None]] = {}
     for since, paths in _NEW.items():
         for path in paths.split():
             table[path] = (since, None)

@@ -5,13 +5,13 @@ RRF 3.5 GCodes2.cpp, state.messageBox of RepRap.cpp. Eight boxes queue up; the f
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Optional
+from typing import TYPE_CHECKING, Any
 
 from .channel import Channel, Macro, Outcome, Running
 from .command import Command, GCodeError
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 MOST_BOXES = 8
 CLOSE_MODE = 1
@@ -24,12 +24,12 @@ AXES_OF_CONTROLS = "XYZ"
 class MessageBoxes:
     """The boxes that are open, oldest first."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
-        self._open: List[Dict[str, Any]] = []
-        self._deadlines: Dict[int, float] = {}
+        self._open: list[dict[str, Any]] = []
+        self._deadlines: dict[int, float] = {}
         self._seq = 0
-        self.answers: List[Any] = []
+        self.answers: list[Any] = []
         """What M292 said so far: ``None`` for OK, ``False`` for cancel, or the value."""
 
     def open(
@@ -46,7 +46,7 @@ class MessageBoxes:
         if len(self._open) >= MOST_BOXES:
             raise GCodeError("Too many message boxes")
         self._seq += 1
-        box: Dict[str, Any] = {
+        box: dict[str, Any] = {
             "axisControls": controls,
             "cancelButton": cancel or mode == CANCEL_MODE,
             "choices": limits.get("choices"),
@@ -69,7 +69,7 @@ class MessageBoxes:
         return any(box["seq"] == seq for box in self._open)
 
     @property
-    def current(self) -> Optional[Dict[str, Any]]:
+    def current(self) -> dict[str, Any] | None:
         return self._open[0] if self._open else None
 
     @property
@@ -98,17 +98,19 @@ class MessageBoxes:
         self._board.bump("state")
 
 
-def open_box(board: Board, channel: Channel, command: Command) -> Outcome:
+def open_box(board: Core, channel: Channel, command: Command) -> Outcome:
     """M291: modes up to 1 don't wait; from USB even the others acknowledge at once."""
     message, title = command.string("P") or "", command.string("R") or ""
     mode = command.integer("S", CLOSE_MODE) or 0
     if not 0 <= mode <= board.firmware.box_modes:
         raise GCodeError("Invalid message box mode")
-    timeout = command.float("T", 0.0 if mode > CLOSE_MODE else DEFAULT_TIMEOUT) or 0.0
+    timeout = command.number_of("T", 0.0 if mode > CLOSE_MODE else DEFAULT_TIMEOUT) or 0.0
     controls = sum(
         1 << index for index, axis in enumerate(AXES_OF_CONTROLS) if command.integer(axis, 0)
     )
-    arguments = dict(timeout=timeout, controls=controls, cancel=bool(command.integer("J", 0)))
+    arguments: dict[str, Any] = dict(
+        timeout=timeout, controls=controls, cancel=bool(command.integer("J", 0))
+    )
     if mode >= CHOICE_MODE:
         arguments.update(_limits(command, mode))
     from_usb = channel.name == "USB"
@@ -134,7 +136,7 @@ def _acknowledged(channel: Channel) -> None:
     channel.awaits_acknowledgement = False
 
 
-def _limits(command: Command, mode: int) -> Dict[str, Any]:
+def _limits(command: Command, mode: int) -> dict[str, Any]:
     if mode == CHOICE_MODE:
         choices = command.value("K")
         if not isinstance(choices, list):
@@ -143,7 +145,7 @@ def _limits(command: Command, mode: int) -> Dict[str, Any]:
     return {"low": command.value("L"), "high": command.value("H"), "default": command.value("F")}
 
 
-def _print(board: Board, title: str, message: str, mode: int) -> None:
+def _print(board: Core, title: str, message: str, mode: int) -> None:
     """Show the text on USB itself (RRF 3.5 Platform.cpp SendAlert)."""
     text = f"- {title} -\n{message}\n" if title else f"{message}\n"
     if mode == CANCEL_MODE:
@@ -153,7 +155,7 @@ def _print(board: Board, title: str, message: str, mode: int) -> None:
     board.message(text)
 
 
-def _wait_for_answer(board: Board, channel: Channel, seq: int) -> Running:
+def _wait_for_answer(board: Core, channel: Channel, seq: int) -> Running:
     channel.awaits_acknowledgement = True
     before = len(board.boxes.answers)
     try:
@@ -164,7 +166,7 @@ def _wait_for_answer(board: Board, channel: Channel, seq: int) -> Running:
         raise Macro
 
 
-def answer_box(board: Board, channel: Channel, command: Command) -> Outcome:
+def answer_box(board: Core, channel: Channel, command: Command) -> Outcome:
     """M292: P1 cancels, R gives a value and S the box meant (both from 3.5)."""
     box = board.boxes.current
     if box is None:
@@ -181,7 +183,7 @@ def answer_box(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def _check(box: Dict[str, Any], value: Any) -> None:
+def _check(box: dict[str, Any], value: Any) -> None:
     mode = box["mode"]
     if mode == CHOICE_MODE:
         if not isinstance(value, int) or not 0 <= value < len(box["choices"] or ()):
@@ -192,9 +194,9 @@ def _check(box: Dict[str, Any], value: Any) -> None:
         raise GCodeError("Value is not of the right type")
     if size is None:
         raise GCodeError("missing parameter 'R'")
-    for limit, outside in (("min", lambda a, b: a < b), ("max", lambda a, b: a > b)):
-        if box.get(limit) is not None and outside(size, box[limit]):
-            raise GCodeError("Value is out of range")
+    low, high = box.get("min"), box.get("max")
+    if (low is not None and size < low) or (high is not None and size > high):
+        raise GCodeError("Value is out of range")
 
 
 TABLE = {"M291": open_box, "M292": answer_box}

@@ -1,13 +1,14 @@
-"""The movement queue: what is queued, where the axes are at any moment, what a move costs in time."""
+"""The movement queue: what is queued, where the axes are at any moment, how long a move takes."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from typing import TYPE_CHECKING, Any, Deque, Dict, List, NamedTuple, Optional, Sequence
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 
 class Move(NamedTuple):
@@ -27,22 +28,23 @@ class Move(NamedTuple):
 class Motion:
     """Takes moves, and lets the model's positions follow them in simulated time."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
-        self._moves: Deque[Move] = deque()
-        self._target: List[float] = []
-        self._extruded_done: List[float] = []
-        self.last_code: Optional[int] = None
+        self._moves: deque[Move] = deque()
+        self._target: list[float] = []
+        self._extruded_done: list[float] = []
+        self.last_code: int | None = None
         """G number that a line of bare coordinates continues on a CNC machine."""
         self.cold_reported = False
         self.virtual_e = 0.0
 
     @property
-    def axes(self) -> List[Dict[str, Any]]:
-        return self._board.data["move"]["axes"]
+    def axes(self) -> list[dict[str, Any]]:
+        axes: list[dict[str, Any]] = self._board.data["move"]["axes"]
+        return axes
 
     @property
-    def extruders(self) -> List[Dict[str, Any]]:
+    def extruders(self) -> list[dict[str, Any]]:
         return self._board.data["move"].get("extruders") or []
 
     @property
@@ -58,7 +60,7 @@ class Motion:
         """When the move under way ends; infinity while nothing moves."""
         return self._moves[0].end if self._moves else math.inf
 
-    def target(self) -> List[float]:
+    def target(self) -> list[float]:
         """Return the machine coordinates where the queue ends."""
         if not self._moves or not self._target:
             self._target = [float(axis["machinePosition"]) for axis in self.axes]
@@ -69,7 +71,7 @@ class Motion:
         target: Sequence[float],
         extruded: Sequence[float],
         feed: float,
-        seconds: Optional[float] = None,
+        seconds: float | None = None,
     ) -> None:
         """Append a move to ``target``; ``feed`` in mm/s, or the time it takes."""
         begin = self.target()
@@ -131,7 +133,7 @@ class Motion:
                 extruder["rawPosition"] += more
         self._extruded_done = [] if part >= 1.0 else [amount * part for amount in amounts]
 
-    def _show_current(self, move: Optional[Move]) -> None:
+    def _show_current(self, move: Move | None) -> None:
         current = self._board.data["move"]["currentMove"]
         speed = move.speed if move else 0.0
         acceleration = move.acceleration if move else 0.0
@@ -156,7 +158,7 @@ class Motion:
             offset -= tool["offsets"][index]
         return offset + float(axis.get("babystep") or 0.0)
 
-    def jump(self, position: Dict[int, float]) -> None:
+    def jump(self, position: dict[int, float]) -> None:
         """Set machine coordinates without a move (G92, homing)."""
         self._target = self.target()
         for index, value in position.items():

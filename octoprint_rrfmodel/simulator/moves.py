@@ -2,34 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Callable
 
 from .channel import Channel, MoveError, Outcome, Running
-from .command import Command, GCodeError
+from .command import Command
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 INCH = 25.4
-HOMING_SECONDS = 4.0
-"""Simulated time to home one axis."""
-PROBING_SECONDS = 6.0
 _NO_TOOL = "Error: Attempting to extrude with no tool selected.\n"
 
 
-def axis_index(board: Board, letter: str) -> Optional[int]:
+def axis_index(board: Core, letter: str) -> int | None:
     for index, axis in enumerate(board.motion.axes):
         if axis["letter"] == letter:
             return index
     return None
 
 
-def named_axes(board: Board, command: Command) -> List[int]:
+def named_axes(board: Core, command: Command) -> list[int]:
     """Return the indexes of the axes whose letters are among the parameters."""
     return [i for i, axis in enumerate(board.motion.axes) if axis["letter"] in command]
 
 
-def linear_move(board: Board, channel: Channel, command: Command) -> Outcome:
+def linear_move(board: Core, channel: Channel, command: Command) -> Outcome:
     """G0 to G3: answers once the move is in the queue, later while that is full."""
     if board.motion.is_full:
         return _when_there_is_room(board, channel, command)
@@ -37,12 +35,12 @@ def linear_move(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def _when_there_is_room(board: Board, channel: Channel, command: Command) -> Running:
+def _when_there_is_room(board: Core, channel: Channel, command: Command) -> Running:
     yield lambda: not board.motion.is_full
     _queue_move(board, channel, command)
 
 
-def _queue_move(board: Board, channel: Channel, command: Command) -> None:
+def _queue_move(board: Core, channel: Channel, command: Command) -> None:
     words = command.coordinates()
     modal = channel.input
     scale = INCH if modal["distanceUnit"] == "in" else 1.0
@@ -53,15 +51,13 @@ def _queue_move(board: Board, channel: Channel, command: Command) -> None:
     code = int(words.get("H", 0))
     begin = motion.target()
     target = list(begin)
-    involved: List[int] = []
+    involved: list[int] = []
     relative = modal["axesRelative"]
     for index, axis in enumerate(motion.axes):
         letter = axis["letter"]
         if letter in words:
             value = words[letter] * scale
-            target[index] = (
-                begin[index] + value if relative else value + motion.offset(index)
-            )
+            target[index] = begin[index] + value if relative else value + motion.offset(index)
             involved.append(index)
     if involved and not code:
         _check_homed(board, involved)
@@ -75,27 +71,27 @@ def _queue_move(board: Board, channel: Channel, command: Command) -> None:
     motion.queue(target, _extrusion(board, channel, command, words, scale, bool(involved)), speed)
 
 
-def _check_homed(board: Board, involved: Sequence[int]) -> None:
+def _check_homed(board: Core, involved: Sequence[int]) -> None:
     move = board.data["move"]
     if not move.get("noMovesBeforeHoming", True):
         return
     axes = board.motion.axes
-    needed = range(min(3, len(axes))) if _is_delta(board) else involved
+    needed = range(min(3, len(axes))) if is_delta(board) else involved
     if not all(axes[index]["homed"] for index in needed):
         raise MoveError("insufficient axes homed")
 
 
-def _is_delta(board: Board) -> bool:
+def is_delta(board: Core) -> bool:
     return "elta" in str((board.data["move"].get("kinematics") or {}).get("name"))
 
 
-def _home_by_move(board: Board, involved: Sequence[int]) -> None:
+def _home_by_move(board: Core, involved: Sequence[int]) -> None:
     for index in involved:
         board.motion.axes[index]["homed"] = True
     board.bump("move")
 
 
-def _inside_limits(board: Board, target: List[float], involved: Sequence[int]) -> List[float]:
+def _inside_limits(board: Core, target: list[float], involved: Sequence[int]) -> list[float]:
     """Return the target clamped to the axis limits; on a CNC machine that is an error."""
     if not board.data["move"].get("limitAxes", True):
         return target
@@ -111,21 +107,23 @@ def _inside_limits(board: Board, target: List[float], involved: Sequence[int]) -
 
 
 def _extrusion(
-    board: Board,
+    board: Core,
     channel: Channel,
     command: Command,
-    words: Dict[str, float],
+    words: dict[str, float],
     scale: float,
     has_axes: bool,
-) -> List[float]:
+) -> list[float]:
     """Return the extrusion of each extruder, none where the tool is missing or cold."""
     amounts = [0.0] * len(board.motion.extruders)
     if "E" not in words:
         return amounts
     drives_relative = channel.input["drivesRelative"]
     motion = board.motion
-    if drives_relative:
-        requested = [value * scale for value in command.floats("E") or [0.0]]
+    if drives_relative and ":" in command.text:
+        requested = [value * scale for value in command.numbers("E") or [0.0]]
+    elif drives_relative:
+        requested = [words["E"] * scale]
     else:
         requested = [words["E"] * scale - motion.virtual_e]
     motion.virtual_e += sum(requested)
@@ -158,121 +156,25 @@ def _extrusion(
     return amounts
 
 
-def standstill(board: Board) -> Callable[[], bool]:
+def standstill(board: Core) -> Callable[[], bool]:
     """Return the condition that the queue has run empty."""
     return lambda: not board.motion.is_moving
 
 
-def home(board: Board, channel: Channel, command: Command) -> Running:
-    """G28: homes the axes named, all without any; ok comes at the end."""
-    yield standstill(board)
-    axes = board.motion.axes
-    indexes = named_axes(board, command) or list(range(len(axes)))
-    with board.running_macro(channel):
-        for index in indexes:
-            axes[index]["homed"] = False
-        board.bump("move")
-        at_end = _is_delta(board)
-        for index in indexes:
-            yield board.after(HOMING_SECONDS)
-            axis = axes[index]
-            axis["homed"] = True
-            board.motion.jump({index: _homed_position(board, index, at_end)})
-            board.bump("move")
-
-
-def _homed_position(board: Board, index: int, at_end: bool) -> float:
-    if at_end:
-        kinematics = board.data["move"]["kinematics"]
-        return float(kinematics.get("homedHeight") or 0.0) if index == 2 else 0.0
-    endstops = board.data["sensors"].get("endstops") or []
-    endstop = endstops[index] if index < len(endstops) else None
-    axis = board.motion.axes[index]
-    return float(axis["max"] if endstop and endstop.get("highEnd") else axis["min"])
-
-
-def mesh(board: Board, channel: Channel, command: Command) -> Outcome:
-    """G29: S0 or none probes, S1 loads, S2 clears, S3 saves the height map."""
-    mode = command.integer("S", 0)
-    compensation = board.data["move"]["compensation"]
-    if mode == 2:
-        compensation.update(file=None, fadeHeight=None, liveGrid=None, meshDeviation=None)
-        compensation["type"] = "none"
-        board.bump("move")
-        return None
-    if mode == 1:
-        _load_mesh(board)
-        return None
-    if mode == 3:
-        return "Height map saved to file 0:/sys/heightmap.csv"
-    return _probe_mesh(board, channel)
-
-
-def _load_mesh(board: Board) -> None:
-    compensation = board.data["move"]["compensation"]
-    compensation.update(
-        file="0:/sys/heightmap.csv", type="mesh", meshDeviation={"deviation": 0.043, "mean": -0.012}
-    )
-    if "liveGrid" in compensation:
-        compensation["liveGrid"] = dict(compensation["probeGrid"])
-    board.bump("move")
-
-
-def _probe_mesh(board: Board, channel: Channel) -> Running:
-    if not board.data["sensors"].get("probes"):
-        raise GCodeError("Z probe number 0 not found")
-    if not all(axis["homed"] for axis in board.motion.axes[:3]):
-        raise GCodeError("Insufficient axes homed for bed probing")
-    yield standstill(board)
-    with board.running_macro(channel):
-        yield board.after(5 * PROBING_SECONDS)
-    _load_mesh(board)
-    return (
-        "100 points probed, min error -0.098, max error 0.104, mean -0.012, deviation 0.043\n"
-        "Height map saved to file 0:/sys/heightmap.csv"
-    )
-
-
-def probe_point(board: Board, channel: Channel, command: Command) -> Running:
-    """G30: probes where the head is."""
-    if not board.data["sensors"].get("probes"):
-        raise GCodeError("Z probe number 0 not found")
-    yield standstill(board)
-    with board.running_macro(channel):
-        yield board.after(PROBING_SECONDS)
-    probe = board.data["sensors"]["probes"][0]
-    if command.integer("S", 0) == -1:
-        return f"Stopped at height {probe['triggerHeight']:.3f} mm"
-    index = axis_index(board, "Z")
-    if index is not None:
-        board.motion.axes[index]["homed"] = True
-        board.motion.jump({index: float(probe["triggerHeight"])})
-        board.bump("move")
-    return None
-
-
-def true_bed(board: Board, channel: Channel, command: Command) -> Running:
-    """G32: runs bed.g."""
-    yield standstill(board)
-    with board.running_macro(channel):
-        yield from board.run_system_macro(channel, "bed.g")
-        yield board.after(3 * PROBING_SECONDS)
-
-
-def dwell(board: Board, channel: Channel, command: Command) -> Running:
+def dwell(board: Core, channel: Channel, command: Command) -> Running:
     """G4: waits for the queue, then for P milliseconds or S seconds."""
-    milliseconds = command.float("P", 0.0) or 0.0
-    seconds = (command.float("S", 0.0) or 0.0) + milliseconds / 1000
+    milliseconds = command.number_of("P", 0.0) or 0.0
+    seconds = (command.number_of("S", 0.0) or 0.0) + milliseconds / 1000
     yield standstill(board)
     yield board.after(seconds)
 
 
-def wait_for_moves(board: Board, channel: Channel, command: Command) -> Running:
+def wait_for_moves(board: Core, channel: Channel, command: Command) -> Running:
     """M400."""
     yield standstill(board)
 
 
-def set_position(board: Board, channel: Channel, command: Command) -> Outcome:
+def set_position(board: Core, channel: Channel, command: Command) -> Outcome:
     """G92: the named axes are where it says, and count as homed."""
     words = command.coordinates()
     scale = INCH if channel.input["distanceUnit"] == "in" else 1.0
@@ -286,7 +188,7 @@ def set_position(board: Board, channel: Channel, command: Command) -> Outcome:
     return _jump_at_standstill(board, jumps) if jumps else None
 
 
-def _jump_at_standstill(board: Board, jumps: Dict[int, float]) -> Running:
+def _jump_at_standstill(board: Core, jumps: dict[int, float]) -> Running:
     yield standstill(board)
     for index in jumps:
         board.motion.axes[index]["homed"] = True
@@ -294,9 +196,9 @@ def _jump_at_standstill(board: Board, jumps: Dict[int, float]) -> Running:
     board.bump("move")
 
 
-def motors_off(board: Board, channel: Channel, command: Command) -> Running:
+def motors_off(board: Core, channel: Channel, command: Command) -> Running:
     """M18 and M84: the axes named, or all, aren't homed any more; ``M84 S`` sets the idle time."""
-    seconds = command.float("S")
+    seconds = command.number_of("S")
     if seconds is not None:
         board.data["move"]["idle"]["timeout"] = seconds
         board.bump("move")
@@ -308,7 +210,7 @@ def motors_off(board: Board, channel: Channel, command: Command) -> Running:
     board.bump("move")
 
 
-def babystep(board: Board, channel: Channel, command: Command) -> Outcome:
+def babystep(board: Core, channel: Channel, command: Command) -> Outcome:
     """M290: S or Z, other axes by letter; relative unless R0, clamped to 1 mm a command."""
     if not command.raw:
         axes = board.motion.axes
@@ -317,9 +219,9 @@ def babystep(board: Board, channel: Channel, command: Command) -> Outcome:
     absolute = command.integer("R", 1) == 0
     for index, axis in enumerate(board.motion.axes):
         letter = axis["letter"]
-        amount = command.float(letter)
+        amount = command.number_of(letter)
         if amount is None and letter == "Z":
-            amount = command.float("S")
+            amount = command.number_of("S")
         if amount is None:
             continue
         change = amount - axis["babystep"] if absolute else max(-1.0, min(1.0, amount))
@@ -329,7 +231,7 @@ def babystep(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def limits(board: Board, channel: Channel, command: Command) -> Outcome:
+def limits(board: Core, channel: Channel, command: Command) -> Outcome:
     """M564: H0 allows moves of unhomed axes, S0 beyond the limits."""
     move = board.data["move"]
     before_homing, limit = command.integer("H"), command.integer("S")
@@ -348,10 +250,10 @@ def limits(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def mode(member: str, value: Any) -> Callable[[Board, Channel, Command], Outcome]:
+def mode(member: str, value: Any) -> Callable[[Core, Channel, Command], Outcome]:
     """Return the command that sets one modal member of the channel (G90, M83, G20 ...)."""
 
-    def set_mode(board: Board, channel: Channel, command: Command) -> Outcome:
+    def set_mode(board: Core, channel: Channel, command: Command) -> Outcome:
         if channel.input.get(member) != value:
             channel.input[member] = value
             board.bump("inputs")
@@ -360,19 +262,19 @@ def mode(member: str, value: Any) -> Callable[[Board, Channel, Command], Outcome
     return set_mode
 
 
-def push(board: Board, channel: Channel, command: Command) -> Outcome:
+def push(board: Core, channel: Channel, command: Command) -> Outcome:
     """M120."""
     channel.push()
     return None
 
 
-def pop(board: Board, channel: Channel, command: Command) -> Outcome:
+def pop(board: Core, channel: Channel, command: Command) -> Outcome:
     """M121."""
     channel.pop()
     return None
 
 
-def workplace(board: Board, channel: Channel, command: Command) -> Outcome:
+def workplace(board: Core, channel: Channel, command: Command) -> Outcome:
     """G54 to G59.3: selects a coordinate system."""
     move = board.data["move"]
     if command.number == 59 and command.fraction > 0:
@@ -393,10 +295,6 @@ TABLE = {
     "G4": dwell,
     "G20": mode("distanceUnit", "in"),
     "G21": mode("distanceUnit", "mm"),
-    "G28": home,
-    "G29": mesh,
-    "G30": probe_point,
-    "G32": true_bed,
     "G54": workplace,
     "G55": workplace,
     "G56": workplace,

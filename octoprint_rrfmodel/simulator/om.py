@@ -1,7 +1,8 @@
 """The object model as text: numbers, escapes, and the answer to an M409.
 
-Which members a key and its flags select is the business of :func:`octoprint_rrfmodel.rrf.m409.answer`;
-here is what the serial line adds: decimals, the cut of arrays, shortage of buffers, versions.
+Which members a key and its flags select is the business of
+:func:`octoprint_rrfmodel.rrf.m409.answer`; here is what the serial line adds: decimals, the cut of
+arrays, shortage of buffers, versions.
 """
 
 from __future__ import annotations
@@ -9,9 +10,11 @@ from __future__ import annotations
 import math
 import re
 import struct
-from typing import Any, Dict, List, Mapping, Optional
+from collections.abc import Mapping
+from typing import Any
 
-from octoprint_rrfmodel.rrf.m409 import MARKS, answer
+from octoprint_rrfmodel.rrf.m409 import answer
+from octoprint_rrfmodel.rrf.marks import MARKS
 
 from .decimals import TREE
 from .firmware import Firmware
@@ -102,8 +105,8 @@ def encoded(value: Any, exponents: bool = False) -> str:
 def with_decimals(value: Any, node: Any) -> Any:
     """Return a copy of a part of the model in which the floats know their decimals."""
     if isinstance(value, dict):
-        below = node if isinstance(node, dict) else {}
-        return {k: with_decimals(v, below.get(k)) for k, v in value.items()}
+        members = node if isinstance(node, dict) else {}
+        return {k: with_decimals(v, members.get(k)) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
         below = node.get("[]") if isinstance(node, dict) else None
         return [with_decimals(v, below) for v in value]
@@ -112,7 +115,7 @@ def with_decimals(value: Any, node: Any) -> Any:
     return value
 
 
-def typed(model: Mapping[str, Any], key: str) -> Dict[str, Any]:
+def typed(model: Mapping[str, Any], key: str) -> dict[str, Any]:
     """Return the model ready for output; only the top-level member that ``key`` asks for is new."""
     wanted = re.split(r"[.\[^]", key.lstrip("#"), maxsplit=1)[0]
     return {
@@ -121,7 +124,7 @@ def typed(model: Mapping[str, Any], key: str) -> Dict[str, Any]:
     }
 
 
-def _shortened_axes(model: Dict[str, Any], limit: int) -> Dict[str, Any]:
+def _shortened_axes(model: dict[str, Any], limit: int) -> dict[str, Any]:
     """Return the model with ``move.axes`` cut to ``limit`` elements."""
     move = model.get("move") or {}
     if len(move.get("axes") or ()) <= limit:
@@ -150,7 +153,7 @@ def _key_up_to_leaf(model: Mapping[str, Any], key: str) -> str:
     return key if value is None or isinstance(value, (Mapping, list)) else key[:end]
 
 
-def _cut(parts: List[str], before: int, limit: int) -> int:
+def _cut(parts: list[str], before: int, limit: int) -> int:
     """Return how many of the encoded elements RRF writes before the text reaches the limit."""
     length = before + 1
     for count, part in enumerate(parts):
@@ -210,7 +213,7 @@ def first_element(flags: str) -> int:
     return int(starts[-1] or 0) if starts else 0
 
 
-def dsf_reply(model: Mapping[str, Any], key: str, flags: str) -> Optional[str]:
+def dsf_reply(model: Mapping[str, Any], key: str, flags: str) -> str | None:
     """Return what Duet Software Framework answers for its own keys, ``None`` for any other.
 
     It doesn't echo the flags and writes numbers in its own way.

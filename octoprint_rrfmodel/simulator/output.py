@@ -1,12 +1,12 @@
-"""What goes out on USB: in order, late or slowly where a fault says so, lost where nobody listens."""
+"""What goes out on USB: in order, late or slowly where a fault says so."""
 
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING, Deque, Tuple
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 BITS_PER_BYTE = 10
 
@@ -22,9 +22,9 @@ def utf8(text: str) -> bytes:
 class Output:
     """The queue of bytes that the host hasn't fetched yet."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
-        self._late: Deque[Tuple[float, bytes]] = deque()
+        self._late: deque[tuple[float, bytes]] = deque()
         self._ready = bytearray()
         self._line_free_at = 0.0
 

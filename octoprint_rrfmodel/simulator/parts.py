@@ -5,7 +5,8 @@ Member order is the firmware's, which is that of strcmp.
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 ABS_ZERO = -273.15
 ROOM = 21.3
@@ -34,7 +35,7 @@ MARLIN_CHANNELS = ("Telnet", "USB")
 """The channels that start in Marlin compatibility (RRF 3.5 GCodes.cpp:110, 122)."""
 
 
-def monitor(limit: Optional[float], sensor: int = -1) -> Dict[str, Any]:
+def monitor(limit: float | None, sensor: int = -1) -> dict[str, Any]:
     """Return a heater monitor; without a limit a disabled one."""
     return {
         "action": None if limit is None else 0,
@@ -51,7 +52,7 @@ def heater(
     cooling_rate: float,
     dead_time: float = 3.0,
     cold: float = ROOM,
-) -> Dict[str, Any]:
+) -> dict[str, Any]:
     """Return a switched-off heater; rates in K/s at full power and K/s per 100 K above ambient."""
     return {
         "active": 0.0,
@@ -84,7 +85,7 @@ def heater(
     }
 
 
-def thermistor(name: str, port: str) -> Dict[str, Any]:
+def thermistor(name: str, port: str) -> dict[str, Any]:
     return {
         "beta": 4725.0,
         "c": 7.06e-8,
@@ -100,7 +101,7 @@ def thermistor(name: str, port: str) -> Dict[str, Any]:
     }
 
 
-def mcu_sensor(name: str) -> Dict[str, Any]:
+def mcu_sensor(name: str) -> dict[str, Any]:
     return {
         "lastReading": 34.2,
         "name": name,
@@ -113,8 +114,8 @@ def mcu_sensor(name: str) -> Dict[str, Any]:
 
 
 def fan(
-    name: str = "", sensors: Sequence[int] = (), limit: Optional[float] = None, rpm: int = -1
-) -> Dict[str, Any]:
+    name: str = "", sensors: Sequence[int] = (), limit: float | None = None, rpm: int = -1
+) -> dict[str, Any]:
     """Return a fan; with sensors a thermostatic one that starts at ``limit`` °C."""
     return {
         "actualValue": 0.0,
@@ -135,7 +136,7 @@ def fan(
     }
 
 
-def microstepping(value: int = 16) -> Dict[str, Any]:
+def microstepping(value: int = 16) -> dict[str, Any]:
     return {"interpolated": True, "value": value}
 
 
@@ -149,7 +150,7 @@ def axis(
     steps: float,
     current: int = 1200,
     visible: bool = True,
-) -> Dict[str, Any]:
+) -> dict[str, Any]:
     """Return an axis that isn't homed; speed in mm/min, acceleration in mm/s²."""
     return {
         "acceleration": acceleration,
@@ -178,7 +179,7 @@ def axis(
     }
 
 
-def extruder(driver: str, steps: float = 690.0, advance: float = 0.045) -> Dict[str, Any]:
+def extruder(driver: str, steps: float = 690.0, advance: float = 0.045) -> dict[str, Any]:
     return {
         "acceleration": 3000.0,
         "current": 800,
@@ -208,7 +209,7 @@ def tool(
     fans: Sequence[int],
     axes: Sequence[Sequence[int]],
     offsets: Sequence[float],
-) -> Dict[str, Any]:
+) -> dict[str, Any]:
     return {
         "active": [0.0] * len(heaters),
         "axes": [list(mapped) for mapped in axes],
@@ -237,7 +238,7 @@ def tool(
     }
 
 
-def spindle(configured: bool = False) -> Dict[str, Any]:
+def spindle(configured: bool = False) -> dict[str, Any]:
     return {
         "active": 0,
         "canReverse": configured,
@@ -252,11 +253,11 @@ def spindle(configured: bool = False) -> Dict[str, Any]:
     }
 
 
-def endstop(high_end: bool = False) -> Dict[str, Any]:
+def endstop(high_end: bool = False) -> dict[str, Any]:
     return {"highEnd": high_end, "probe": None, "triggered": False, "type": "inputPin"}
 
 
-def probe() -> Dict[str, Any]:
+def probe() -> dict[str, Any]:
     return {
         "calibrationTemperature": 25.0,
         "deployedByUser": False,
@@ -282,7 +283,7 @@ def probe() -> Dict[str, Any]:
     }
 
 
-def filament_monitor() -> Dict[str, Any]:
+def filament_monitor() -> dict[str, Any]:
     return {
         "configured": {
             "allMoves": False,
@@ -298,7 +299,7 @@ def filament_monitor() -> Dict[str, Any]:
     }
 
 
-def gcode_input(name: str) -> Dict[str, Any]:
+def gcode_input(name: str) -> dict[str, Any]:
     return {
         "active": True,
         "axesRelative": False,
@@ -319,7 +320,7 @@ def gcode_input(name: str) -> Dict[str, Any]:
     }
 
 
-def restore_point(axes: int) -> Dict[str, Any]:
+def restore_point(axes: int) -> dict[str, Any]:
     return {
         "coords": [0.0] * axes,
         "extruderPos": 0.0,
@@ -331,7 +332,7 @@ def restore_point(axes: int) -> Dict[str, Any]:
     }
 
 
-def no_file() -> Dict[str, Any]:
+def no_file() -> dict[str, Any]:
     """Return ``job.file`` while no file is selected."""
     return {
         "customInfo": {},
@@ -350,7 +351,7 @@ def no_file() -> Dict[str, Any]:
     }
 
 
-def no_job() -> Dict[str, Any]:
+def no_job() -> dict[str, Any]:
     """Return ``job`` while nothing is printing."""
     return {
         "build": None,
@@ -370,7 +371,7 @@ def no_job() -> Dict[str, Any]:
     }
 
 
-def input_list(release_35: bool, has_sbc: bool, aux2: bool) -> List[Optional[Dict[str, Any]]]:
+def input_list(release_35: bool, has_sbc: bool, aux2: bool) -> list[dict[str, Any] | None]:
     """Return ``inputs``; channels that the board doesn't have are null, later ones are missing."""
     missing = {"SBC": not has_sbc, "Aux2": not aux2, "File2": not aux2, "Queue2": not aux2}
     names = [n for n in INPUT_NAMES if release_35 or n not in INPUTS_SINCE_35]

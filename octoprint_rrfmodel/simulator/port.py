@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import threading
 import time
-from typing import Any, Optional
+from typing import Any
 
 from .board import Board
 
@@ -15,10 +16,12 @@ POLL_SECONDS = 0.002
 def _serial_error(text: str, timeout: bool = False) -> Exception:
     """Return pyserial's exception where pyserial is installed, so that hosts catch it."""
     try:
-        import serial
+        serial = importlib.import_module("serial")
     except ImportError:
         return TimeoutError(text) if timeout else OSError(text)
-    return serial.SerialTimeoutException(text) if timeout else serial.SerialException(text)
+    kind = serial.SerialTimeoutException if timeout else serial.SerialException
+    error: Exception = kind(text)
+    return error
 
 
 class SimulatedSerial:
@@ -34,8 +37,8 @@ class SimulatedSerial:
         board: Board,
         port: str = "RRF-SIM",
         baudrate: int = 115200,
-        timeout: Optional[float] = None,
-        write_timeout: Optional[float] = None,
+        timeout: float | None = None,
+        write_timeout: float | None = None,
     ):
         if not board.is_plugged_in:
             raise _serial_error(f"could not open port {port}: no such device")
@@ -61,7 +64,7 @@ class SimulatedSerial:
         self._buffer.clear()
         self.is_open = True
 
-    def isOpen(self) -> bool:  # noqa: N802, pyserial's old name
+    def isOpen(self) -> bool:
         return self.is_open
 
     def close(self) -> None:
@@ -104,7 +107,8 @@ class SimulatedSerial:
             self._fetch()
             return len(self._buffer)
 
-    inWaiting = in_waiting.fget  # noqa: N815, pyserial's old name
+    def inWaiting(self) -> int:
+        return self.in_waiting
 
     def read(self, size: int = 1) -> bytes:
         """Return up to ``size`` bytes, fewer after the timeout."""
@@ -145,12 +149,12 @@ class SimulatedSerial:
             self._fetch()
             self._buffer.clear()
 
-    flushInput = reset_input_buffer  # noqa: N815, pyserial's old name
+    flushInput = reset_input_buffer
 
     def reset_output_buffer(self) -> None:
         """Nothing waits on the way out."""
 
-    flushOutput = reset_output_buffer  # noqa: N815, pyserial's old name
+    flushOutput = reset_output_buffer
 
     def cancel_read(self) -> None:
         self._cancelled.set()

@@ -10,7 +10,7 @@ import termios
 import threading
 import time
 import tty
-from typing import Any, Optional
+from typing import Any
 
 from .board import Board
 
@@ -28,18 +28,18 @@ class PtyBoard:
     ``baud`` slows the output down to a line of that speed.
     """
 
-    def __init__(self, board: Board, link: str, *, baud: Optional[int] = None):
+    def __init__(self, board: Board, link: str, *, baud: int | None = None):
         self.board = board
         self.link = os.fspath(link)
         if baud is not None:
             board.inject(f"baud:{baud}")
-        self._master: Optional[int] = None
+        self._master: int | None = None
         self._session = board.sessions
         self._unsent = b""
         self._unsent_since = 0.0
         self._stop = threading.Event()
-        self._thread: Optional[threading.Thread] = None
-        self.error: Optional[BaseException] = None
+        self._thread: threading.Thread | None = None
+        self.error: BaseException | None = None
         """What ended the thread, if not :meth:`stop`."""
 
     def start(self) -> PtyBoard:

@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List
+from typing import TYPE_CHECKING, Any
 
 from . import m408
 from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
 from .om import OUT_OF_BUFFERS, dsf_reply
 from .serial_line import NO_REPLY, Kind, Reply
-from .tools import tools
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 KEY_LENGTH = 100
 FLAGS_LENGTH = 20
 """Longest K and F of M409 (RRF 3.5 GCodes2.cpp:3111)."""
 
 
-def temperatures(board: Board) -> str:
+def temperatures(board: Core) -> str:
     """Return ``T:21.3 /0.0 T0:21.3 /0.0 B:60.0 /60.0`` (RRF 3.5 GCodes.cpp:4811-4861)."""
     current = board.current_tool()
-    found: List[str] = []
+    found: list[str] = []
     if current is not None and current.get("heaters"):
         found.append("T:" + _heaters(board, current["heaters"]))
-    for tool in tools(board):
+    for tool in board.tools():
         if tool.get("heaters"):
             found.append(f"T{tool['number']}:" + _heaters(board, tool["heaters"]))
     heat = board.data.get("heat") or {}
@@ -37,7 +36,7 @@ def temperatures(board: Board) -> str:
     return " ".join(found)
 
 
-def _heaters(board: Board, indexes: List[int]) -> str:
+def _heaters(board: Core, indexes: list[int]) -> str:
     pairs = []
     for index in indexes:
         heater = board.thermal.heater(index)
@@ -46,13 +45,13 @@ def _heaters(board: Board, indexes: List[int]) -> str:
     return " ".join(pairs)
 
 
-def report_temperatures(board: Board, channel: Channel, command: Command) -> Outcome:
+def report_temperatures(board: Core, channel: Channel, command: Command) -> Outcome:
     """M105."""
     channel.status_request = "M105"
     return Reply(temperatures(board), Kind.TEMPERATURES)
 
 
-def position(board: Board, channel: Channel, command: Command) -> Outcome:
+def position(board: Core, channel: Channel, command: Command) -> Outcome:
     """M114 (RRF 3.5 GCodes.cpp:3332)."""
     board.refresh()
     axes = [axis for axis in board.motion.axes if axis.get("visible", True)]
@@ -67,7 +66,7 @@ def position(board: Board, channel: Channel, command: Command) -> Outcome:
     return f"{user} {extrusion} Count {counts} Machine {machine} Bed comp 0.000"
 
 
-def identify(board: Board, channel: Channel, command: Command) -> Outcome:
+def identify(board: Core, channel: Channel, command: Command) -> Outcome:
     """M115: no Cap: lines in any version (RRF 3.5 GCodes2.cpp:1944-1984)."""
     firmware, mainboard = board.firmware, board.mainboard
     text = (
@@ -79,7 +78,7 @@ def identify(board: Board, channel: Channel, command: Command) -> Outcome:
     return text
 
 
-def endstops(board: Board, channel: Channel, command: Command) -> Outcome:
+def endstops(board: Core, channel: Channel, command: Command) -> Outcome:
     """M119 (RRF 3.5 EndstopsManager.cpp:519)."""
     found = board.data["sensors"].get("endstops") or []
     states = []
@@ -95,7 +94,7 @@ def endstops(board: Board, channel: Channel, command: Command) -> Outcome:
     return f"Endstops - {', '.join(states)}, Z probe: {_probe_state(board)}"
 
 
-def _probe_state(board: Board) -> str:
+def _probe_state(board: Core) -> str:
     probes = board.data["sensors"].get("probes") or []
     if not probes or probes[0] is None:
         return "not stopped"
@@ -103,11 +102,11 @@ def _probe_state(board: Board) -> str:
     return "at min stop" if value >= probes[0].get("threshold", 500) else "not stopped"
 
 
-def diagnostics(board: Board, channel: Channel, command: Command) -> Outcome:
+def diagnostics(board: Core, channel: Channel, command: Command) -> Outcome:
     """M122: many lines."""
     firmware, mainboard = board.firmware, board.mainboard
-    state = board.data["state"]
-    hours, minutes = divmod(int(state["upTime"]) // 60, 60)
+    minutes, seconds = divmod(int(board.up_time), 60)
+    hours, minutes = divmod(minutes, 60)
     board_line = (
         f"{mainboard.firmware_name} version {firmware.version} ({firmware.date}) "
         f"running on {mainboard.electronics}"
@@ -120,7 +119,7 @@ def diagnostics(board: Board, channel: Channel, command: Command) -> Outcome:
         "=== RTOS ===",
         "Never used RAM 118392, free system stack 204 words",
         "=== Platform ===",
-        f"Last reset {hours:02d}:{minutes:02d}:{int(state['upTime']) % 60:02d} ago, cause: power up",
+        f"Last reset {hours:02d}:{minutes:02d}:{seconds:02d} ago, cause: power up",
         "=== Storage ===",
         "Free file entries: 20",
         "=== Move ===",
@@ -128,16 +127,16 @@ def diagnostics(board: Board, channel: Channel, command: Command) -> Outcome:
         f"{board.data['move']['compensation']['type']}",
         "=== GCodes ===",
     ]
-    for index, gcode_input in enumerate(board.data["inputs"]):
+    for _index, gcode_input in enumerate(board.data["inputs"]):
         if gcode_input is not None:
             lines.append(f"{gcode_input['name']} is {gcode_input['state']} in state(s) 0")
     return Reply("\n".join(lines) + "\n", Kind.LONG)
 
 
-def speed_factor(board: Board, channel: Channel, command: Command) -> Outcome:
+def speed_factor(board: Core, channel: Channel, command: Command) -> Outcome:
     """M220."""
     move = board.data["move"]
-    percent = command.float("S")
+    percent = command.number_of("S")
     if percent is None:
         return f"Speed factor: {move['speedFactor'] * 100:.1f}%"
     if percent < 1:
@@ -147,9 +146,9 @@ def speed_factor(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def extrusion_factor(board: Board, channel: Channel, command: Command) -> Outcome:
+def extrusion_factor(board: Core, channel: Channel, command: Command) -> Outcome:
     """M221: with D one extruder, otherwise those of the current tool."""
-    percent, drive = command.float("S"), command.integer("D")
+    percent, drive = command.number_of("S"), command.integer("D")
     extruders = board.motion.extruders
     if drive is not None:
         drives = [drive] if 0 <= drive < len(extruders) else []
@@ -168,7 +167,7 @@ def extrusion_factor(board: Board, channel: Channel, command: Command) -> Outcom
     return None
 
 
-def object_model(board: Board, channel: Channel, command: Command) -> Outcome:
+def object_model(board: Core, channel: Channel, command: Command) -> Outcome:
     """M409: the JSON text in one line, which ends in a line break of its own."""
     key = command.string("K", KEY_LENGTH) or ""
     flags = command.string("F", FLAGS_LENGTH) or ""
@@ -181,15 +180,15 @@ def object_model(board: Board, channel: Channel, command: Command) -> Outcome:
     return _model_reply(board, channel, key, flags, command.integer("R", 0) == 1)
 
 
-def _when_buffers_are_free(board: Board, channel: Channel, key: str, flags: str) -> Running:
+def _when_buffers_are_free(board: Core, channel: Channel, key: str, flags: str) -> Running:
     """Retry silently below 20 free buffers, as 3.5 and later do."""
     yield lambda: not board.faults.is_on("few_buffers")
     return _model_reply(board, channel, key, flags, False)
 
 
-def _model_reply(board: Board, channel: Channel, key: str, flags: str, itself: bool) -> Reply:
+def _model_reply(board: Core, channel: Channel, key: str, flags: str, itself: bool) -> Reply:
     board.refresh()
-    model: Dict[str, Any] = dict(board.data)
+    model: dict[str, Any] = dict(board.data)
     state = model.get("state")
     if isinstance(state, dict) and "thisInput" in state:
         model["state"] = {**state, "thisInput": board.input_index(channel.name)}
@@ -206,7 +205,7 @@ def _model_reply(board: Board, channel: Channel, key: str, flags: str, itself: b
     return Reply(text + "\n", Kind.LONG)
 
 
-def old_status(board: Board, channel: Channel, command: Command) -> Outcome:
+def old_status(board: Core, channel: Channel, command: Command) -> Outcome:
     """M408: S0 and S1 for old panels, S2 to S4 as rr_status, S5 as rr_config."""
     kind = command.integer("S", 0) or 0
     if kind == 0:
@@ -217,7 +216,7 @@ def old_status(board: Board, channel: Channel, command: Command) -> Outcome:
     return Reply(text + ("\n\n" if kind in (0, 1) else "\n"), Kind.LONG)
 
 
-def resend(board: Board, channel: Channel, command: Command) -> Outcome:
+def resend(board: Core, channel: Channel, command: Command) -> Outcome:
     """M998: asks for a line again; nothing in RRF sends it by itself (RRF 3.5 GCodes2.cpp:4705)."""
     return Reply(f"rs {command.integer('P', 0)}", Kind.TEMPERATURES)
 

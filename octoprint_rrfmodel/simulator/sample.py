@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Dict, Tuple
-
 SAMPLE_FOLDERS = ["0:/gcodes", "0:/sys", "0:/macros", "0:/filaments/PLA", "0:/gcodes/Empty"]
 
 
@@ -45,7 +43,7 @@ def printed(layers: int, layer_height: float = 0.2, first_layer: float = 60.0) -
     return "\n".join(lines) + "\n"
 
 
-def _files() -> Dict[str, Tuple[str, str]]:
+def _files() -> dict[str, tuple[str, str]]:
     return {
         "0:/gcodes/square.gcode": ("2024-11-04T20:21:00", printed(40)),
         "0:/gcodes/Two layers.gcode": ("2024-11-02T09:15:30", printed(2)),
@@ -69,4 +67,3 @@ def _files() -> Dict[str, Tuple[str, str]]:
 
 
 SAMPLE_FILES = _files()
-

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import enum
 import re
-from typing import List, NamedTuple, Optional
+from typing import NamedTuple
 
 STRING_LENGTH = 256
 """Replies that aren't long ones pass a formatter of this size, NUL included
@@ -19,7 +19,7 @@ _NUMBERED = re.compile(r"\s*[Nn]\s*(\d+)\s*(.*)", re.DOTALL)
 _CHECKSUM = re.compile(r"\*\s*(\d+)\s*$")
 
 
-def _crc_table() -> List[int]:
+def _crc_table() -> list[int]:
     table = []
     for byte in range(256):
         crc = byte
@@ -52,7 +52,7 @@ class Line(NamedTuple):
     """A received line without line number and checksum; ``number`` is ``None`` without one."""
 
     text: str
-    number: Optional[int]
+    number: int | None
 
 
 def _checksum_at(line: str) -> int:
@@ -76,7 +76,7 @@ def _checksum_at(line: str) -> int:
     return found
 
 
-def parse_line(text: str, has_crc: bool = True, required: bool = False) -> Optional[Line]:
+def parse_line(text: str, has_crc: bool = True, required: bool = False) -> Line | None:
     """Return the line, ``None`` where RRF drops it without a word for its checksum.
 
     A checksum counts only on a numbered line. Up to three digits are an XOR, five a CRC16; firmware

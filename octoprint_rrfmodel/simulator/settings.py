@@ -1,46 +1,42 @@
-"""The remaining commands: messages, beeps, power, names, output modes, meta commands."""
+"""The remaining commands: messages, beeps, power, names, output modes, filaments."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, Tuple
+from typing import TYPE_CHECKING, Any, Callable
 
-from . import expression
-from .channel import Channel, Macro, Outcome, Running
+from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
 from .moves import standstill
 from .serial_line import COMPATIBILITIES, NO_REPLY
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 EMERGENCY = "Emergency Stop! Reset the controller to continue.\n"
 RESET_SECONDS = 1.0
 """Time from M999 to the restart (RRF 3.5 GCodes2.cpp:4718)."""
-_SET = re.compile(r"(var|global)\.([A-Za-z_]\w*)((?:\[[^\]]*\])*)\s*=(.*)", re.DOTALL)
-"""An assignment; groups: kind, name, indexes, expression."""
-_DECLARE = re.compile(r"\s*([A-Za-z_]\w*)\s*=(.*)", re.DOTALL)
 
 
-def nothing(board: Board, channel: Channel, command: Command) -> Outcome:
+def nothing(board: Core, channel: Channel, command: Command) -> Outcome:
     """Accepted without any effect a host could see."""
     return None
 
 
-def emergency_stop(board: Board, channel: Channel, command: Command) -> Outcome:
+def emergency_stop(board: Core, channel: Channel, command: Command) -> Outcome:
     """M112: everything off; from then on only a few commands are accepted."""
     board.halt()
     board.message(EMERGENCY)
     return None
 
 
-def restart(board: Board, channel: Channel, command: Command) -> Outcome:
+def restart(board: Core, channel: Channel, command: Command) -> Outcome:
     """M999: no reply; the port goes away and comes back."""
     board.after_seconds(RESET_SECONDS, board.power_cycle)
     return NO_REPLY
 
 
-def debug(board: Board, channel: Channel, command: Command) -> Outcome:
+def debug(board: Core, channel: Channel, command: Command) -> Outcome:
     """M111: a table; without parameters or with P there is no ok (RRF 3.5 GCodes2.cpp:1914)."""
     if not command.raw or "P" in command:
         board.usb_message("Debugging enabled for modules: none\nDebugging disabled for modules:\n")
@@ -48,14 +44,14 @@ def debug(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def display(board: Board, channel: Channel, command: Command) -> Outcome:
+def display(board: Core, channel: Channel, command: Command) -> Outcome:
     """M117: the text goes to the model, not to USB."""
     board.data["state"]["displayMessage"] = command.unquoted_text()
     board.bump("state")
     return None
 
 
-def say(board: Board, channel: Channel, command: Command) -> Outcome:
+def say(board: Core, channel: Channel, command: Command) -> Outcome:
     """M118: P1 to USB, P0 to all."""
     text = command.string("S")
     if text is None:
@@ -68,7 +64,7 @@ def say(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def beep(board: Board, channel: Channel, command: Command) -> Outcome:
+def beep(board: Core, channel: Channel, command: Command) -> Outcome:
     """M300: in the model for as long as it sounds."""
     duration = command.integer("P", 100) or 0
     board.data["state"]["beep"] = {
@@ -80,12 +76,12 @@ def beep(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def _silence(board: Board) -> None:
+def _silence(board: Core) -> None:
     board.data["state"]["beep"] = None
     board.bump("state")
 
 
-def power_on(board: Board, channel: Channel, command: Command) -> Outcome:
+def power_on(board: Core, channel: Channel, command: Command) -> Outcome:
     """M80: with C it sets the port up."""
     state = board.data["state"]
     if "C" in command:
@@ -97,7 +93,7 @@ def power_on(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def power_off(board: Board, channel: Channel, command: Command) -> Outcome:
+def power_off(board: Core, channel: Channel, command: Command) -> Outcome:
     """M81: with S1 once everything has cooled down."""
     state = board.data["state"]
     if state.get("atxPowerPort") is None and board.firmware.at_least(3, 4):
@@ -111,7 +107,7 @@ def power_off(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def name_machine(board: Board, channel: Channel, command: Command) -> Outcome:
+def name_machine(board: Core, channel: Channel, command: Command) -> Outcome:
     """M550."""
     name = command.string("P")
     network = board.data.get("network") or {}
@@ -123,7 +119,7 @@ def name_machine(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def compatibility(board: Board, channel: Channel, command: Command) -> Outcome:
+def compatibility(board: Core, channel: Channel, command: Command) -> Outcome:
     """M555: for this channel only."""
     number = command.integer("P")
     if number is None:
@@ -135,7 +131,7 @@ def compatibility(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def identity_transform(board: Board, channel: Channel, command: Command) -> Outcome:
+def identity_transform(board: Core, channel: Channel, command: Command) -> Outcome:
     """M561: bed compensation off."""
     compensation = board.data["move"]["compensation"]
     compensation.update(file=None, fadeHeight=None, meshDeviation=None)
@@ -146,7 +142,7 @@ def identity_transform(board: Board, channel: Channel, command: Command) -> Outc
     return None
 
 
-def serial_settings(board: Board, channel: Channel, command: Command) -> Outcome:
+def serial_settings(board: Core, channel: Channel, command: Command) -> Outcome:
     """M575 P0 S: whether USB requires a checksum."""
     mode = command.integer("S")
     if command.integer("P", 0) == 0 and mode is not None:
@@ -154,17 +150,18 @@ def serial_settings(board: Board, channel: Channel, command: Command) -> Outcome
     return None
 
 
-def _extruder_of_tool(board: Board) -> dict:
+def _extruder_of_tool(board: Core) -> dict[str, Any]:
     tool = board.current_tool()
     if tool is None:
         raise GCodeError("No tool selected")
     drive = tool.get("filamentExtruder", -1)
     if not 0 <= drive < len(board.motion.extruders):
         raise GCodeError("The current tool has no filament drive")
-    return board.motion.extruders[drive]
+    extruder: dict[str, Any] = board.motion.extruders[drive]
+    return extruder
 
 
-def load_filament(board: Board, channel: Channel, command: Command) -> Outcome:
+def load_filament(board: Core, channel: Channel, command: Command) -> Outcome:
     """M701: runs load.g of that filament, for the current tool."""
     extruder = _extruder_of_tool(board)
     name = command.string("S")
@@ -178,7 +175,7 @@ def load_filament(board: Board, channel: Channel, command: Command) -> Outcome:
     return _filament_macro(board, channel, extruder, name, f"0:/filaments/{name}/load.g", name)
 
 
-def unload_filament(board: Board, channel: Channel, command: Command) -> Outcome:
+def unload_filament(board: Core, channel: Channel, command: Command) -> Outcome:
     """M702."""
     extruder = _extruder_of_tool(board)
     name = extruder["filament"]
@@ -187,7 +184,7 @@ def unload_filament(board: Board, channel: Channel, command: Command) -> Outcome
     return _filament_macro(board, channel, extruder, "", f"0:/filaments/{name}/unload.g", name)
 
 
-def configure_filament(board: Board, channel: Channel, command: Command) -> Outcome:
+def configure_filament(board: Core, channel: Channel, command: Command) -> Outcome:
     """M703."""
     extruder = _extruder_of_tool(board)
     name = extruder["filament"]
@@ -197,7 +194,7 @@ def configure_filament(board: Board, channel: Channel, command: Command) -> Outc
 
 
 def _filament_macro(
-    board: Board, channel: Channel, extruder: dict, after: str, path: str, name: str
+    board: Core, channel: Channel, extruder: dict[str, Any], after: str, path: str, name: str
 ) -> Running:
     yield standstill(board)
     lines = board.card.lines(path) or []
@@ -208,13 +205,13 @@ def _filament_macro(
         board.bump("move")
 
 
-def cold_extrusion(board: Board, channel: Channel, command: Command) -> Outcome:
+def cold_extrusion(board: Core, channel: Channel, command: Command) -> Outcome:
     """M302: S sets the temperature, P1 allows cold extrusion."""
     if not command.raw:
         limit = board.data["heat"]["coldExtrudeTemperature"]
         return f"Cold extrusion is denied, min. extrusion temperature {limit:.1f}°C"
     for letter, member in (("S", "coldExtrudeTemperature"), ("R", "coldRetractTemperature")):
-        value = command.float(letter)
+        value = command.number_of(letter)
         if value is not None:
             board.data["heat"][member] = value
             board.bump("heat")
@@ -223,7 +220,7 @@ def cold_extrusion(board: Board, channel: Channel, command: Command) -> Outcome:
     return None
 
 
-def firmware_retraction(board: Board, channel: Channel, command: Command) -> Outcome:
+def firmware_retraction(board: Core, channel: Channel, command: Command) -> Outcome:
     """G10 without parameters and G11."""
     tool = board.current_tool()
     if tool is not None and "isRetracted" in tool:
@@ -231,7 +228,7 @@ def firmware_retraction(board: Board, channel: Channel, command: Command) -> Out
     return None
 
 
-def spindle(board: Board, channel: Channel, command: Command) -> Outcome:
+def spindle(board: Core, channel: Channel, command: Command) -> Outcome:
     """M3, M4, M5: the first spindle that is configured."""
     for candidate in board.data.get("spindles") or ():
         if candidate is None or candidate["state"] == "unconfigured":
@@ -247,10 +244,10 @@ def spindle(board: Board, channel: Channel, command: Command) -> Outcome:
     raise GCodeError("No spindle configured")
 
 
-def machine_mode(mode: str):
+def machine_mode(mode: str) -> Callable[[Core, Channel, Command], Outcome]:
     """Return the command that makes the machine a printer or a router (M451, M453)."""
 
-    def set_mode(board: Board, channel: Channel, command: Command) -> Outcome:
+    def set_mode(board: Core, channel: Channel, command: Command) -> Outcome:
         board.data["state"]["machineMode"] = mode
         board.bump("state")
         return None
@@ -258,97 +255,28 @@ def machine_mode(mode: str):
     return set_mode
 
 
-def output_port(board: Board, channel: Channel, command: Command) -> Outcome:
+def output_port(board: Core, channel: Channel, command: Command) -> Outcome:
     """M42 and M280: ``state.gpOut``."""
     ports = board.data["state"].get("gpOut") or []
-    number, value = command.integer("P", 0) or 0, command.float("S", 0.0) or 0.0
+    number, value = command.integer("P", 0) or 0, command.number_of("S", 0.0) or 0.0
     if not 0 <= number < len(ports) or ports[number] is None:
         raise GCodeError(f"GPIO port {number} not found")
     ports[number]["pwm"] = min(1.0, value / 255 if value > 1 else value)
     return None
 
 
-def meta(board: Board, channel: Channel, command: Command) -> Outcome:
-    """echo, var, global, set, abort; conditions and loops are accepted and do nothing."""
-    word, _, rest = command.text.partition(" ")
-    try:
-        return META[word](board, channel, rest)
-    except expression.BadExpression as error:
-        raise GCodeError(str(error)) from None
-
-
-def _echo(board: Board, channel: Channel, text: str) -> Outcome:
-    values = expression.arguments(text, channel.lookup)
-    return " ".join(expression.text_of(value) for value in values)
-
-
-def _declared(text: str, channel: Channel) -> Tuple[str, Any]:
-    match = _DECLARE.match(text)
-    if match is None:
-        raise GCodeError("expected '='")
-    return match.group(1), expression.evaluate(match.group(2), channel.lookup)
-
-
-def _global(board: Board, channel: Channel, text: str) -> Outcome:
-    name, value = _declared(text, channel)
-    if name in board.data["global"]:
-        raise GCodeError(f"variable '{name}' already exists")
-    board.data["global"][name] = value
-    board.bump("global")
-    return None
-
-
-def _var(board: Board, channel: Channel, text: str) -> Outcome:
-    name, value = _declared(text, channel)
-    channel.variables[name] = value
-    return None
-
-
-def _set(board: Board, channel: Channel, text: str) -> Outcome:
-    match = _SET.match(text.strip())
-    if match is None:
-        raise GCodeError("expected a variable")
-    is_global = match.group(1) == "global"
-    variables = board.data["global"] if is_global else channel.variables
-    if match.group(2) not in variables:
-        raise GCodeError(f"unknown variable '{match.group(2)}'")
-    value = expression.evaluate(match.group(4), channel.lookup)
-    indexes = [int(index) for index in re.findall(r"\[\s*(\d+)\s*\]", match.group(3))]
-    if indexes:
-        target = variables[match.group(2)]
-        for index in indexes[:-1]:
-            target = target[index]
-        target[indexes[-1]] = value
-    else:
-        variables[match.group(2)] = value
-    if is_global:
-        board.bump("global")
-    return None
-
-
-def _abort(board: Board, channel: Channel, text: str) -> Outcome:
-    if text.strip():
-        board.message(expression.text_of(expression.evaluate(text, channel.lookup)) + "\n")
-    if channel.macro_depth:
-        raise Macro
-    return None
-
-
-META = dict.fromkeys(
-    ("if", "elif", "else", "while", "break", "continue", "skip"), lambda board, channel, text: None
-)
-META.update({"echo": _echo, "global": _global, "var": _var, "set": _set, "abort": _abort})
-
-_ACCEPTED = (
-    "G11 G17 G18 G19 G53 G60 G80 G93 G94 M17 M73 M110 M150 M200 M201 M203 M204 M205 M207 M260 "
-    "M301 M303 M304 M305 M307 M308 M350 M404 M501 M551 M552 M553 M554 M556 M557 M558 M566 M567 "
-    "M569 M570 M571 M572 M573 M574 M577 M578 M580 M581 M582 M583 M584 M585 M586 M587 M588 M589 "
-    "M591 M592 M593 M595 M665 M666 M667 M668 M669 M671 M675 M851 M905 M906 M911 M912 M913 M915 "
-    "M916 M917 M918 M929 M950 M951 M952 M955 M956 M957 M958 M959 M970 M997"
-).split()
+_ACCEPTED = """
+    G11 G17 G18 G19 G53 G60 G80 G93 G94 M17 M73 M110 M150 M200 M201 M203 M204 M205 M207 M260
+    M301 M303 M304 M305 M307 M308 M350 M404 M501 M551 M552 M553 M554 M556 M557 M558 M566
+    M567 M569 M570 M571 M572 M573 M574 M577 M578 M580 M581 M582 M583 M584 M585 M586 M587
+    M588 M589 M591 M592 M593 M595 M665 M666 M667 M668 M669 M671 M675 M851 M905 M906 M911
+    M912 M913 M915 M916 M917 M918 M929 M950 M951 M952 M955 M956 M957 M958 M959 M970 M997
+"""
 """Configuration that the simulator takes note of in no way."""
 
-TABLE = dict.fromkeys(_ACCEPTED, nothing)
+TABLE: dict[str, Callable[[Core, Channel, Command], Outcome]] = dict.fromkeys(
+    _ACCEPTED.split(), nothing
+)
 TABLE.update(
     {
         "G11": firmware_retraction,
@@ -374,6 +302,5 @@ TABLE.update(
         "M702": unload_filament,
         "M703": configure_filament,
         "M999": restart,
-        "meta": meta,
     }
 )

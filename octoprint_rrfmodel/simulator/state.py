@@ -9,7 +9,7 @@ from . import jobs
 from .build import BOOT_TIME
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 _BOOT = datetime.datetime.fromisoformat(BOOT_TIME)
 
@@ -22,7 +22,7 @@ _JOB_STATUS = {
 }
 
 
-def shown_status(board: Board) -> str:
+def shown_status(board: Core) -> str:
     """Return ``state.status``; the order of precedence is RRF 3.5 RepRap.cpp:2391."""
     if board.is_halted:
         return "halted"
@@ -40,13 +40,13 @@ def shown_status(board: Board) -> str:
     return "idle"
 
 
-def date_time(board: Board) -> str:
+def date_time(board: Core) -> str:
     """Return the board's wall clock as the model shows it."""
     moment = _BOOT + datetime.timedelta(seconds=int(board.up_time))
     return moment.isoformat()
 
 
-def show(board: Board) -> None:
+def show(board: Core) -> None:
     """Bring positions, status, clocks and inputs of the model up to date."""
     board.motion.show(board.now)
     state = board.data["state"]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 from .parts import ROOM
 
 if TYPE_CHECKING:
-    from .board import Board
+    from .core import Core
 
 CLOSE_ENOUGH = 2.5
 """Distance in °C from the target at which a wait ends."""
@@ -21,20 +22,20 @@ OFF_BELOW = -273.0
 class Thermal:
     """Moves ``heat.heaters[].current`` towards what state and targets ask for."""
 
-    def __init__(self, board: Board):
+    def __init__(self, board: Core):
         self._board = board
         self.cancelled_waits = 0
 
     @property
-    def heaters(self) -> List[Optional[Dict[str, Any]]]:
+    def heaters(self) -> list[dict[str, Any] | None]:
         return self._board.data.get("heat", {}).get("heaters") or []
 
-    def heater(self, index: int) -> Optional[Dict[str, Any]]:
+    def heater(self, index: int) -> dict[str, Any] | None:
         """Return that heater; ``None`` where there is none."""
         return self.heaters[index] if 0 <= index < len(self.heaters) else None
 
     @staticmethod
-    def target(heater: Dict[str, Any]) -> float:
+    def target(heater: dict[str, Any]) -> float:
         """Return what the heater is regulated to, 0 while it is off (RRF 3.5 GCodes.cpp:4811)."""
         state = heater.get("state")
         if state in ("active", "standby"):
@@ -51,7 +52,7 @@ class Thermal:
             if fan is not None:
                 self._blow(fan)
 
-    def _heat(self, heater: Dict[str, Any], seconds: float) -> None:
+    def _heat(self, heater: dict[str, Any], seconds: float) -> None:
         current = float(heater["current"])
         if not -50.0 < current < 1000.0:
             return  # an open circuit reads 2000 °C or absolute zero and stays there
@@ -87,7 +88,7 @@ class Thermal:
             if 0 <= index < len(sensors) and sensors[index] is not None:
                 sensors[index]["lastReading"] = heater["current"]
 
-    def _blow(self, fan: Dict[str, Any]) -> None:
+    def _blow(self, fan: dict[str, Any]) -> None:
         thermostatic = fan.get("thermostatic") or {}
         watched = thermostatic.get("sensors") or thermostatic.get("heaters") or []
         wanted = float(fan.get("requestedValue") or 0.0)
@@ -134,15 +135,15 @@ class Thermal:
             return True
         if not may_cool and heater["current"] >= target:
             return True
-        return abs(heater["current"] - target) <= CLOSE_ENOUGH
+        return abs(float(heater["current"]) - target) <= CLOSE_ENOUGH
 
     def are_at_target(self, indexes: Iterable[int], may_cool: bool = True) -> bool:
         return all(self.is_at_target(index, may_cool) for index in indexes)
 
-    def can_extrude(self, tool: Dict[str, Any]) -> bool:
+    def can_extrude(self, tool: dict[str, Any]) -> bool:
         """Return whether every heater of the tool is warm enough."""
         limit = float(self._board.data["heat"].get("coldExtrudeTemperature") or 0.0)
-        if getattr(self._board, "cold_extrusion_allowed", False):
+        if self._board.cold_extrusion_allowed:
             return True
         for index in tool.get("heaters") or ():
             heater = self.heater(index)
