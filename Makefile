@@ -2,6 +2,7 @@
 # (one dependency of OctoPrint 1.11 comes as source) and, for the browser tests, Debian's chromium.
 
 PYTHON ?= python3
+PYTHON39 ?= python3.9
 JOBS ?= 4
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
@@ -26,7 +27,7 @@ export PIP_NO_INPUT := 1
 help:
 	@echo "make test           lint, then the tests in OctoPrint 1.11 and 2.0"
 	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
-	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9"
+	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
 	@echo "make lint           ruff and mypy; make format lets ruff put files in shape"
 	@echo "make bench          the measurements in tests/bench"
 	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000"
@@ -83,7 +84,7 @@ test-pure-py39: .venv/python-3.9/.ready
 
 .venv/python-3.9/.ready: requirements/dev.txt
 	@rm -rf $(@D)
-	@python3.9 -m venv $(@D)
+	@$(PYTHON39) -m venv $(@D)
 	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
@@ -111,7 +112,8 @@ LANGUAGES := $(notdir $(patsubst %/LC_MESSAGES/messages.po,%,$(wildcard translat
 
 translations: .venv/octoprint-2.0/.ready
 	@$(BABEL) --quiet extract --mapping-file=babel.cfg --output-file=translations/messages.pot \
-		--project=OctoPrint-RRFModel --no-location --sort-output .
+		--project=OctoPrint-RRFModel --copyright-holder="OctoPrint-RRFModel developers" \
+		--no-location --sort-output .
 	@for language in $(LANGUAGES); do \
 		$(BABEL) --quiet update --input-file=translations/messages.pot \
 			--output-dir=translations --locale=$$language && \
