@@ -63,7 +63,7 @@ class ModelApi:
         return gettext("The printer has not told its model yet. Try again in a few seconds.")
 
 
-def length_error(key, flags):
+def refusal_to_send(key, flags):
     """Return why a key and flags can't be sent to the printer, ``None`` where they can."""
     if len(key) > KEY_LENGTH:
         return gettext("The key is longer than the 100 characters that the firmware takes.")
@@ -71,4 +71,6 @@ def length_error(key, flags):
         return gettext("The flags are longer than the 20 characters that the firmware takes.")
     if not (key + flags).isprintable() or not (key + flags).isascii():
         return gettext("Key and flags may hold only printable ASCII characters.")
+    if ";" in key + flags:
+        return gettext("Key and flags may hold no semicolon: G-code takes it for a comment.")
     return None

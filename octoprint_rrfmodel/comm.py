@@ -5,6 +5,7 @@ waits for. None decodes, waits, or raises.
 """
 
 from octoprint.events import Events
+from octoprint.util.version import is_octoprint_compatible
 
 from .rrf.blocking import BLOCKING
 from .rrf.errors import is_halted, is_serious
@@ -19,14 +20,17 @@ SWALLOWED = "// rrfmodel"
 
 STATUS_REQUEST = "M105"
 
+SHOWS_TOOL = is_octoprint_compatible(">=2.0.0rc1")
+"""Whether OctoPrint shows a current tool, and wants to be told it like a position."""
+
 
 class CommBridge:
     """Knows OctoPrint's connection as far as polling needs to, and takes the replies out.
 
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
     ``poll_sent``, ``status_sent`` and ``identified``; it must only take note and return.
-    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing fresh.
-    ``fire(event, payload)`` is OctoPrint's event bus.
+    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, and
+    whether that is fresh. ``fire(event, payload)`` is OctoPrint's event bus.
     """
 
     def __init__(self, notify, temperatures, fire, clock):
@@ -153,7 +157,7 @@ class CommBridge:
         """Return the report with the model's tools, bed, chamber and sensors in it."""
         if comm is not self._comm:
             return parsed
-        known = self._temperatures()
+        known, is_fresh = self._temperatures()
         if known is None:
             return parsed
         # a report has T for the current tool, and OctoPrint takes that for T0 where there is
@@ -164,16 +168,16 @@ class CommBridge:
         # OctoPrint takes a tool for a sensor if its number is higher than any in the report, and
         # takes them all for sensors if neither the current one nor T0 is there
         is_readable = current in known.tools or 0 in known.tools
-        for number, (actual, target) in known.tools.items():
+        for number, value in known.tools.items():
+            actual, target = value if is_fresh else parsed.get(f"T{number}", (None, None))
             if is_readable and number <= highest:
                 merged[f"T{number}"] = (actual, target)
             else:
                 comm.last_temperature.set_tool(number, actual=actual, target=target)
-        if known.bed:
-            merged["B"] = known.bed
-        if known.chamber:
-            merged["C"] = known.chamber
-        merged.update(known.others)
+        if is_fresh:
+            slots = {"B": known.bed, "C": known.chamber}
+            merged.update({name: value for name, value in slots.items() if value})
+            merged.update(known.others)
         return merged
 
     ##~~ what others ask
@@ -223,3 +227,5 @@ class CommBridge:
         comm._toolBeforeChange = old
         comm._currentTool = number
         self._fire(Events.TOOL_CHANGE, {"old": old, "new": number})
+        if SHOWS_TOOL:
+            comm._callback.on_comm_position_update({"t": number})

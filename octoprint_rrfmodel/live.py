@@ -8,7 +8,7 @@ from octoprint.access.permissions import Permissions
 from octoprint.server.util.flask import permission_validator
 from octoprint.server.util.tornado import access_validation_factory
 
-from .api import length_error
+from .api import refusal_to_send
 from .polling import TooManyQueries
 
 WAIT_SECONDS = 10.0
@@ -41,7 +41,7 @@ class LiveModelHandler(tornado.web.RequestHandler):
         """Answer in the firmware's envelope; 409 while polls are held back, 504 after 10 s."""
         key = self.get_query_argument("key", "", strip=False)
         flags = self.get_query_argument("flags", "", strip=False)
-        reason = length_error(key, flags)
+        reason = refusal_to_send(key, flags)
         if reason:
             self._refuse(400, reason)
             return

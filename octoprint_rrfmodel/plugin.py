@@ -49,7 +49,7 @@ class RrfModelPlugin(
         )
         self._follower = Follower()
         self._bridge = CommBridge(
-            self._worker.notify, self._fresh_temperatures, eventManager().fire, clock
+            self._worker.notify, self._known_temperatures, eventManager().fire, clock
         )
         self._poller = Poller(self._follower, self._bridge, self._send, self._on_reply, clock)
         self._status = PluginStatus(
@@ -172,11 +172,10 @@ class RrfModelPlugin(
             self._identifier, message, permissions=[Permissions.PLUGIN_RRFMODEL_READ]
         )
 
-    def _fresh_temperatures(self):
+    def _known_temperatures(self):
         model = self._model()
-        if "heat" not in model or self._poller.is_stale():
-            return None
-        return temperatures(model)
+        known = temperatures(model) if "heat" in model else None
+        return known, not self._poller.is_stale()
 
     def _on_reply(self, taken, asked_at):
         if taken.reset:

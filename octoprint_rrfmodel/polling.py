@@ -6,6 +6,7 @@ All of this runs on the worker thread, which calls ``tick`` and hands in what th
 import collections
 import concurrent.futures
 import logging
+import re
 
 from .rrf.follower import answers
 from .rrf.line import NO_BUFFERS
@@ -21,6 +22,9 @@ QUEUED_SECONDS = 30.0
 
 MOST_QUERIES = 4
 """Questions to the printer that may wait for the one poll slot."""
+
+NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
+"""How firmware of various age says that it hasn't got a command."""
 
 STALE_POLLS = 3
 """Poll intervals without news after which the model is stale."""
@@ -110,7 +114,7 @@ class Poller:
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
-        return self._pace.wait(self._bridge.is_streaming_a_print(), behind=False)
+        return self._pace.wait(self._bridge.is_streaming_a_print())
 
     def is_stale(self):
         """Return whether the model is older than three poll intervals."""
@@ -143,7 +147,7 @@ class Poller:
     def refused(self, line):
         """Note a line that says that a command isn't known, if it is about ours."""
         poll = self._poll
-        if poll is None or poll.query is not None or "not supported" not in line.lower():
+        if poll is None or poll.query is not None or not NOT_KNOWN.search(line.lower()):
             return
         if poll.request.line.split()[0] in line:
             self._follower.not_supported()
@@ -221,7 +225,11 @@ class Poller:
         if failed:
             self._pace.failed()
         self._poll = None
-        wait = self._pace.wait(self._bridge.is_streaming_a_print(), self._follower.behind)
+        wait = self._pace.wait(
+            self._bridge.is_streaming_a_print(),
+            behind=self._follower.behind,
+            begins=not self._follower.ready,
+        )
         self._next_at = self._clock() + wait
 
     def _answer_query(self, poll, text):

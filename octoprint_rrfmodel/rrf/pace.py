@@ -10,8 +10,11 @@ IDLE_SHARE = 0.4
 PRINTING_SHARE = 0.05
 """Part of the line's time that polling may take."""
 
-CATCHING_UP_SECONDS = 0.02
-"""Between polls while keys wait to be fetched and nothing else needs the line."""
+BEGINNING_SECONDS = 0.02
+"""Between polls until every key is known."""
+
+CATCHING_UP_SECONDS = 0.2
+"""Between polls while a key that changed waits to be fetched."""
 
 LONGEST_SECONDS = 30.0
 
@@ -51,14 +54,19 @@ class Pace:
         """Note a poll that brought nothing: back off, the more the oftener."""
         self._failures += 1
 
-    def wait(self, printing: bool, behind: bool) -> float:
-        """Return the seconds between the end of the last poll and the next one."""
+    def wait(self, printing: bool, behind: bool = False, begins: bool = False) -> float:
+        """Return the seconds between the end of the last poll and the next one.
+
+        ``behind``: a key waits to be fetched. ``begins``: not every key is known yet.
+        """
         share = PRINTING_SHARE if printing else IDLE_SHARE
         spaced = self._cost * (1 - share) / share
         if self._failures:
             return min(LONGEST_SECONDS, max(spaced, IDLE_SECONDS * 2.0**self._failures))
         if printing:
             return max(PRINTING_SECONDS, spaced)
+        if begins:
+            return BEGINNING_SECONDS
         if behind:
-            return CATCHING_UP_SECONDS
+            return max(CATCHING_UP_SECONDS, spaced)
         return min(LONGEST_SECONDS, max(IDLE_SECONDS, spaced))
