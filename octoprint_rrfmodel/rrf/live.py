@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from .reply import MalformedReply, scan_value
+from .reply import scan_value
 
 _RESULT = '"result":{'
+
+_UNREADABLE = (StopIteration, ValueError, IndexError, RecursionError)
 
 
 class LiveReader:
@@ -19,42 +21,36 @@ class LiveReader:
 
     def __init__(self) -> None:
         self._head = ""
-        self._members: list[tuple[str, str]] = []
+        # of each member its name, the text up to its value, and the text with its value
+        self._members: list[tuple[str, str, str]] = []
 
     def changed(self, text: str) -> dict[str, Any] | None:
         """Return the members whose text is another than last time, decoded.
 
-        ``None`` where the text isn't built like the one before; ``remember`` must then follow a
-        full decoding. Raises ``MalformedReply`` for a text that starts alike and breaks.
+        ``None`` where the text isn't built like the one before, or is broken: a full decoding
+        finds out which, and ``remember`` must follow it.
         """
-        head = self._head
-        if not head or not text.startswith(head):
-            return None
-        position = len(head)
+        changed = self._compared(text) if self._head and text.startswith(self._head) else None
+        if changed is None:
+            self.forget()
+        return changed
+
+    def _compared(self, text: str) -> dict[str, Any] | None:
+        position = len(self._head)
         changed = {}
-        members = self._members
-        for index, (start, known) in enumerate(members):
+        for index, (name, start, known) in enumerate(self._members):
             if text.startswith(known, position):
                 position += len(known)
             elif text.startswith(start, position):
                 try:
-                    value, end = scan_value(text, position + len(start))
-                except (StopIteration, ValueError, RecursionError) as error:
-                    self.forget()
-                    raise MalformedReply(f"{error}: {text[:80]!r}") from None
-                members[index] = (start, text[position:end])
-                changed[start[1:-2]] = value
+                    changed[name], end = scan_value(text, position + len(start))
+                except _UNREADABLE:
+                    return None
+                self._members[index] = (name, start, text[position:end])
                 position = end
             else:
-                self.forget()
                 return None
-            if text[position] != ",":
-                break
-            position += 1
-        if text[position:] != "}}" or index + 1 != len(members):
-            self.forget()
-            return None
-        return changed
+        return changed if text[position:] == "}}" else None
 
     def remember(self, text: str) -> None:
         """Keep a text that was decoded whole, to compare the next one with."""
@@ -63,15 +59,17 @@ class LiveReader:
         if at < 0:
             return
         position = at + len(_RESULT)
-        members = []
-        while text[position : position + 1] == '"':
-            colon = text.find(":", position)
-            end = scan_value(text, colon + 1)[1]
-            # a number could go on behind the same text, an object or an array can't
-            if text[end - 1] not in "]}":
-                return
-            members.append((text[position : colon + 1], text[position:end]))
-            position = end + 1
+        members: list[tuple[str, str, str]] = []
+        try:
+            while text[position] != "}":
+                start = position
+                name, colon = scan_value(text, position + 1 if members else position)
+                end = scan_value(text, colon + 1)[1]
+                members.append((name, text[start : colon + 1], text[start:end]))
+                position = end
+        except _UNREADABLE:
+            # blanks or a nan; the next one may be without
+            return
         self._head, self._members = text[: at + len(_RESULT)], members
 
     def forget(self) -> None:

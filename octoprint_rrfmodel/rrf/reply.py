@@ -54,7 +54,7 @@ def _no_number(_text: str) -> None:
 _DECODER = json.JSONDecoder(parse_constant=_no_number)
 _CAREFUL_DECODER = json.JSONDecoder(parse_constant=_no_number, parse_float=_finite)
 
-scan_value: Any = _DECODER.scan_once  # type: ignore[attr-defined]
+scan_value: Any = _CAREFUL_DECODER.scan_once  # type: ignore[attr-defined]
 """``(text, start) -> (value, end)``; raises ``StopIteration`` or ``ValueError``."""
 
 
