@@ -6,47 +6,49 @@ $(function () {
      * @typedef {{letter: string, position: string, homed: boolean, title: string}} AxisMark
      */
 
-    /** Words for the machine's state, by state.status; a new one is shown as it came. */
-    const STATUS_TEXTS = {
-        starting: gettext("Starting"),
-        updating: gettext("Updating the firmware"),
-        halted: gettext("Halted"),
-        off: gettext("No motor supply"),
-        pausing: gettext("Pausing"),
-        resuming: gettext("Resuming"),
-        paused: gettext("Paused"),
-        cancelling: gettext("Cancelling"),
-        simulating: gettext("Simulating"),
-        processing: gettext("Printing from its card"),
-        changingTool: gettext("Changing the tool"),
-        busy: gettext("Busy"),
-        idle: gettext("Idle")
-    };
+    /** Words in the page's language; OctoPrint defines gettext after this file has run. */
+    const makeWords = () => ({
+        /** The machine's state, by state.status; a new one is shown as it came. */
+        status: {
+            starting: gettext("Starting"),
+            updating: gettext("Updating the firmware"),
+            halted: gettext("Halted"),
+            off: gettext("No motor supply"),
+            pausing: gettext("Pausing"),
+            resuming: gettext("Resuming"),
+            paused: gettext("Paused"),
+            cancelling: gettext("Cancelling"),
+            simulating: gettext("Simulating"),
+            processing: gettext("Printing from its card"),
+            changingTool: gettext("Changing the tool"),
+            busy: gettext("Busy"),
+            idle: gettext("Idle")
+        },
+        /** A heater's state: word and label class. */
+        heater: {
+            off: {text: gettext("off"), label: ""},
+            standby: {text: gettext("standby"), label: "label-info"},
+            active: {text: gettext("active"), label: "label-success"},
+            fault: {text: gettext("fault"), label: "label-important"},
+            tuning: {text: gettext("tuning"), label: "label-warning"},
+            offline: {text: gettext("offline"), label: "label-warning"}
+        },
+        blocked: {
+            heating: gettext("the printer waits for a temperature"),
+            long_command: gettext("the printer is busy with a long command"),
+            streaming: gettext("a file is being sent to the printer's card"),
+            buffers: gettext("the printer is short of memory for its answers")
+        },
+        /** What a person is told, by the code of a warning; others have the server's text. */
+        warning: {
+            halted: gettext(
+                "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
+            ),
+            off: gettext("The motors have no supply voltage.")
+        }
+    });
 
-    /** Words and label classes for a heater's state. */
-    const HEATER_STATES = {
-        off: {text: gettext("off"), label: ""},
-        standby: {text: gettext("standby"), label: "label-info"},
-        active: {text: gettext("active"), label: "label-success"},
-        fault: {text: gettext("fault"), label: "label-important"},
-        tuning: {text: gettext("tuning"), label: "label-warning"},
-        offline: {text: gettext("offline"), label: "label-warning"}
-    };
-
-    const BLOCKED_TEXTS = {
-        heating: gettext("the printer waits for a temperature"),
-        long_command: gettext("the printer is busy with a long command"),
-        streaming: gettext("a file is being sent to the printer's card"),
-        buffers: gettext("the printer is short of memory for its answers")
-    };
-
-    /** What a person is told, by the code of a warning; others have the server's text. */
-    const WARNING_TEXTS = {
-        halted: gettext(
-            "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
-        ),
-        off: gettext("The motors have no supply voltage.")
-    };
+    let words;
 
     const HEATER_FAULT = /^heater_fault_(\d+)$/;
 
@@ -55,11 +57,13 @@ $(function () {
         const fault = HEATER_FAULT.exec(warning.code);
         if (fault) {
             return _.sprintf(
-                gettext("Heater %(number)s reports a fault. Find the cause, then reset it with M562."),
+                gettext(
+                    "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
+                ),
                 {number: fault[1]}
             );
         }
-        return WARNING_TEXTS[warning.code] || warning.text;
+        return words.warning[warning.code] || warning.text;
     }
 
     function degrees(value) {
@@ -73,7 +77,7 @@ $(function () {
 
     /** @returns {HeaterRow} */
     function heaterRow(name, heater) {
-        const state = HEATER_STATES[heater.state] || {text: heater.state || "", label: ""};
+        const state = words.heater[heater.state] || {text: heater.state || "", label: ""};
         return {
             name: name,
             current: degrees(heater.current),
@@ -95,7 +99,9 @@ $(function () {
             (tool.heaters || []).forEach(function (index, place) {
                 if (!heaters[index]) return;
                 const title = tool.name || _.sprintf(gettext("Tool %(number)s"), tool);
-                rows.push(heaterRow(place ? title + " (" + (place + 1) + ")" : title, heaters[index]));
+                rows.push(
+                    heaterRow(place ? title + " (" + (place + 1) + ")" : title, heaters[index])
+                );
             });
         });
         [
@@ -131,13 +137,14 @@ $(function () {
     function RrfModelSidebarViewModel(parameters) {
         const self = this;
 
+        words = makeWords();
+
         self.loginState = parameters[0];
         self.access = parameters[1];
 
         self.status = ko.observable({});
         self.model = ko.observable({});
-        self.ageAtReceipt = undefined;
-        self.receivedAt = 0;
+        self.received = ko.observable({age: undefined, at: 0});
         self.now = ko.observable(Date.now());
         self.told = {};
 
@@ -155,7 +162,7 @@ $(function () {
 
         self.statusText = ko.pureComputed(function () {
             const word = self.state().status;
-            return word ? STATUS_TEXTS[word] || word : gettext("Reading the model …");
+            return word ? words.status[word] || word : gettext("Reading the model …");
         });
 
         self.toolText = ko.pureComputed(function () {
@@ -186,8 +193,9 @@ $(function () {
         });
 
         self.age = ko.pureComputed(function () {
-            if (typeof self.ageAtReceipt !== "number") return undefined;
-            return self.ageAtReceipt + Math.max(0, self.now() - self.receivedAt) / 1000;
+            const received = self.received();
+            if (typeof received.age !== "number") return undefined;
+            return received.age + Math.max(0, self.now() - received.at) / 1000;
         });
 
         self.ageText = ko.pureComputed(function () {
@@ -203,7 +211,7 @@ $(function () {
 
         self.reasonText = ko.pureComputed(function () {
             const blocked = self.status().blocked;
-            if (blocked) return BLOCKED_TEXTS[blocked] || blocked;
+            if (blocked) return words.blocked[blocked] || blocked;
             return self.isStale() ? gettext("the printer does not answer") : "";
         });
 
@@ -219,9 +227,8 @@ $(function () {
         };
 
         self.fromStatus = function (status) {
-            self.ageAtReceipt = status.age === null ? undefined : status.age;
-            self.receivedAt = Date.now();
-            self.now(self.receivedAt);
+            self.received({age: status.age, at: Date.now()});
+            self.now(Date.now());
             self.status(status);
             self.tell(status.warnings || []);
         };
