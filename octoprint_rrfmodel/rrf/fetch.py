@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+import re
+from typing import Any, Union
 
 from .m409 import AXES_SHOWN
 from .reply import ModelReply
 from .request import KEY_FLAGS, ModelRequest
 
 AXES = "move.axes"
+
+_STEP = re.compile(r"([^.\[\]]+)|\[([0-9]+)\]")
+"""One step of a path: group 1 a member, group 2 an index."""
+
+_Steps = list[Union[str, int]]
 
 
 class Fetch:
@@ -31,12 +37,13 @@ class Fetch:
     @property
     def request(self) -> ModelRequest:
         """What to ask now."""
-        path = self._paths[0]
+        path, flags = self._paths[0], self._flags
         if self._outline:
             # depth counts objects from the root, so this shows the members and nothing below
-            return ModelRequest(path, self._flags.replace("d99", f"d{path.count('.') + 2}"))
-        page = f"a{len(self._items)}" if self._items or path == AXES else ""
-        return ModelRequest(path, self._flags + page)
+            flags = flags.replace("d99", f"d{path.count('.') + 2}")
+        if self._items or path == AXES:
+            flags += f"a{len(self._items)}"
+        return ModelRequest(path, flags)
 
     def take(self, reply: ModelReply) -> bool:
         """Take the answer to ``request``; return whether the value is complete."""
@@ -73,15 +80,21 @@ class Fetch:
         """The value, put together from its parts."""
         whole = self._parts[self.key]
         for path, part in self._parts.items():
-            if path != self.key:
-                whole = _with_member(whole, path[len(self.key) + 1 :].split("."), part)
+            steps = [name or int(index) for name, index in _STEP.findall(path[len(self.key) :])]
+            whole = _with_part(whole, steps, part)
         return whole
 
 
 def _members_to_ask(path: str, outline: Any) -> list[str]:
-    if not isinstance(outline, dict):
-        return []
-    return [f"{path}.{name}" for name, value in outline.items() if _is_outline(value)]
+    """Return the paths of members, or of elements, of which the outline hasn't everything."""
+    if isinstance(outline, dict):
+        return [f"{path}.{name}" for name, value in outline.items() if _is_outline(value)]
+    # the elements of an array are entered at the depth of an outline, and cut one level below
+    return [
+        f"{path}[{index}]"
+        for index, value in enumerate(outline if isinstance(outline, list) else ())
+        if _is_outline(list(value.values()) if isinstance(value, dict) else value)
+    ]
 
 
 def _is_outline(value: Any) -> bool:
@@ -89,7 +102,11 @@ def _is_outline(value: Any) -> bool:
     return value == {} or (isinstance(value, list) and any(map(_is_outline, value)))
 
 
-def _with_member(whole: Any, names: list[str], part: Any) -> Any:
-    if not names:
+def _with_part(whole: Any, steps: _Steps, part: Any) -> Any:
+    """Return ``whole`` with ``part`` at the end of the steps; neither is changed."""
+    if not steps:
         return part
-    return {**whole, names[0]: _with_member(whole.get(names[0], {}), names[1:], part)}
+    first, rest = steps[0], steps[1:]
+    changed = whole.copy()
+    changed[first] = _with_part(whole[first], rest, part)
+    return changed
