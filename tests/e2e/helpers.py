@@ -1,0 +1,170 @@
+"""What the end-to-end tests do all the time: connect a board, ask for the model, read the wire."""
+
+import json
+import re
+import time
+
+from octoprint_rrfmodel.rrf.m409 import MARKS
+from octoprint_rrfmodel.simulator.decimals import TREE
+from octoprint_rrfmodel.simulator.om import encoded, with_decimals
+
+READY_SECONDS = 15
+LIVE_SECONDS = 3
+SETTLED_SECONDS = 5
+
+NUMBERED = re.compile(r"(?:N\d+ ?)?(?P<command>.*?)(?:\*\d+)?$")
+"""A line as it came in on the wire; group ``command`` is the G-code."""
+
+
+# the plugin over HTTP
+
+
+def status(server):
+    """Return what the plugin says of its state."""
+    response = server.get("/plugin/rrfmodel/status")
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def answer(server, key="", flags=""):
+    """Return the whole answer of the model endpoint."""
+    response = server.get("/plugin/rrfmodel/model", params={"key": key, "flags": flags})
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def value(server, key, flags="d99vno"):
+    """Return the value that the model endpoint has for a key."""
+    return answer(server, key, flags)["result"]
+
+
+def wait_value(server, key, wanted, seconds, what=None):
+    """Return how long it took until the model has that value; ``wanted`` may be a predicate."""
+    fits = wanted if callable(wanted) else lambda found: found == wanted
+    started = time.monotonic()
+    server.wait_for(
+        lambda: fits(value(server, key)), seconds, what or f"{key} to be {wanted!r} over HTTP"
+    )
+    return time.monotonic() - started
+
+
+def disconnect(server):
+    """Guarantee that no port is open and that the plugin has noticed."""
+    if not server.state().startswith(("Offline", "Closed")):
+        server.disconnect()
+        server.wait_disconnected()
+
+    def is_forgotten():
+        state = status(server)
+        return not (state["connected"] or state["is_rrf"] or state["ready"])
+
+    server.wait_for(is_forgotten, 10, "the plugin to see the end of the connection")
+
+
+def connect(server, board, seconds=READY_SECONDS):
+    """Return the seconds from connecting to ``ready``; another connection ends before."""
+    disconnect(server)
+    started = time.monotonic()
+    server.connect(board.link)
+    wait_ready(server, seconds)
+    return time.monotonic() - started
+
+
+def wait_ready(server, seconds=READY_SECONDS):
+    """Return once the whole model is known."""
+    server.wait_for(lambda: status(server)["ready"], seconds, "the model to be ready")
+
+
+def wait_polls(server, count=3, seconds=30):
+    """Return once so many more polls were answered."""
+    before = status(server)["counters"]["replies"]
+    server.wait_for(
+        lambda: status(server)["counters"]["replies"] >= before + count, seconds, "further replies"
+    )
+
+
+# the model and the board's own
+
+
+def printed(key, part):
+    """Return a part of the board's model as it reads after the firmware has printed it."""
+    return json.loads(encoded(with_decimals(part, TREE.get(key))))
+
+
+def differences(known, own, pattern):
+    """Yield a sentence for each place where two values differ in more than live members.
+
+    ``pattern`` is the path of both in the form of the table of marks.
+    """
+    if "live" in MARKS.get(pattern, ()) and not (
+        isinstance(known, (dict, list)) or isinstance(own, (dict, list))
+    ):
+        return
+    if isinstance(known, dict) and isinstance(own, dict):
+        for name in sorted({*known, *own}):
+            path = f"{pattern}.{name}" if pattern else name
+            if name not in known or name not in own:
+                yield f"{path}: only {'the board' if name in own else 'the plugin'} has it"
+            else:
+                yield from differences(known[name], own[name], path)
+    elif isinstance(known, list) and isinstance(own, list):
+        if len(known) != len(own):
+            yield f"{pattern}: {len(known)} elements, the board has {len(own)}"
+        for left, right in zip(known, own):
+            yield from differences(left, right, f"{pattern}[]")
+    elif known != own:
+        yield f"{pattern}: {known!r}, the board has {own!r}"
+
+
+def model_differences(server, board, keys=None):
+    """Return where the plugin's model and the board's own differ, live members apart."""
+    found = []
+    with board.board.lock:
+        own_model = json.loads(json.dumps(board.board.model))
+    # thisInput is the channel that asks, and USB is the third
+    if "thisInput" in own_model["state"]:
+        own_model["state"]["thisInput"] = 3
+    for key in keys or own_model:
+        if key == "seqs":
+            continue
+        known = answer(server, key, "d99vno")
+        if known.get("next"):
+            found.append(f"{key}: cut, next is {known['next']}")
+        found.extend(differences(known["result"], printed(key, own_model[key]), key))
+    return found
+
+
+def wait_equal(server, board, seconds=SETTLED_SECONDS):
+    """Return once the plugin's model is the board's, live members apart."""
+    last = []
+
+    def is_equal():
+        last[:] = model_differences(server, board)
+        return not last
+
+    try:
+        server.wait_for(is_equal, seconds, "the plugin's model to be the board's")
+    except AssertionError as error:
+        raise AssertionError(f"{error}\n" + "\n".join(last[:20])) from None
+
+
+# the wire
+
+
+def commands(board):
+    """Return the G-codes received on USB, without line numbers and checksums."""
+    return [NUMBERED.match(text)["command"].strip() for text in board.board.received()]
+
+
+def is_poll(command):
+    """Return whether a command is one of the plugin's."""
+    return command.startswith(("M409", "M408"))
+
+
+def polls_without_status(sent):
+    """Return the polls that no M105 follows directly; the last one may still be under way."""
+    return [
+        (number, command, sent[number + 1])
+        for number, command in enumerate(sent[:-1])
+        if is_poll(command) and sent[number + 1] != "M105"
+    ]
