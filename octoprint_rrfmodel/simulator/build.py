@@ -15,6 +15,9 @@ from .members import for_firmware
 BOOT_TIME = "2024-11-05T08:00:00"
 """Where the simulated wall clock starts."""
 
+NO_TAPER = float("nan")
+"""``fadeHeight`` without taper: a number that prints as null, shown without ``n`` (Move.cpp)."""
+
 SEQS = """
     boards directories fans global heat inputs job ledStrips move network reply scanner sensors
     spindles state tools volChanges volumes
@@ -32,11 +35,20 @@ def _by_number(tools: list[dict[str, Any]]) -> list[dict[str, Any] | None]:
     return [found.get(number) for number in range(max(found, default=-1) + 1)]
 
 
-def _move(machine: Machine, queue_length: int) -> dict[str, Any]:
+def _move(machine: Machine, queue_length: int, is_duet2: bool) -> dict[str, Any]:
     axes = machine.axes()
     printing, travel = machine.accelerations
     first_motor = sum(len(axis["drivers"]) for axis in axes)
     on_tool_boards = dict(enumerate(machine.tool_boards))
+    extruders = [
+        parts.extruder(
+            f"{on_tool_boards[index]}.0" if index in on_tool_boards else f"0.{first_motor + index}"
+        )
+        for index in range(machine.extruders)
+    ]
+    if is_duet2:
+        for drive in axes + extruders:
+            del drive["percentStstCurrent"]
     return {
         "axes": axes,
         "backlashFactor": 10,
@@ -46,7 +58,7 @@ def _move(machine: Machine, queue_length: int) -> dict[str, Any]:
             "numFactors": 0,
         },
         "compensation": {
-            "fadeHeight": None,
+            "fadeHeight": NO_TAPER,
             "file": None,
             "liveGrid": None,
             "meshDeviation": None,
@@ -68,14 +80,7 @@ def _move(machine: Machine, queue_length: int) -> dict[str, Any]:
             "requestedSpeed": 0.0,
             "topSpeed": 0.0,
         },
-        "extruders": [
-            parts.extruder(
-                f"{on_tool_boards[index]}.0"
-                if index in on_tool_boards
-                else f"0.{first_motor + index}"
-            )
-            for index in range(machine.extruders)
-        ],
+        "extruders": extruders,
         "idle": {"factor": 0.3, "timeout": 30.0},
         "keepout": [],
         "kinematics": copy.deepcopy(machine.kinematics),
@@ -205,7 +210,7 @@ DIRECTORIES = {
 def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     """Return a new object model of that machine, as after ``config.g``, clocks at zero."""
     board = mainboard(machine, firmware)
-    move = _move(machine, board.queue_length)
+    move = _move(machine, board.queue_length, board.is_duet2)
     axes = len(move["axes"])
     seqs: dict[str, Any] = {name: 0 for name in SEQS.split()}
     seqs["volChanges"] = [0, 0]

@@ -38,7 +38,7 @@ DECIMALS: Mapping[str, int] = {
     "heat.heaters[].maxHeatingFaultTime": 1,
     "heat.heaters[].maxTempExcursion": 1,
     "heat.heaters[].min": 1,
-    "heat.heaters[].model.coolingExp": 2,
+    "heat.heaters[].model.coolingExp": 1,
     "heat.heaters[].model.coolingRate": 3,
     "heat.heaters[].model.deadTime": 1,
     "heat.heaters[].model.fanCoolingRate": 3,
@@ -99,7 +99,7 @@ DECIMALS: Mapping[str, int] = {
     "move.currentMove.topSpeed": 1,
     "move.extruders[].acceleration": 1,
     "move.extruders[].factor": 3,
-    "move.extruders[].filamentDiameter": 2,
+    "move.extruders[].filamentDiameter": 3,
     "move.extruders[].jerk": 1,
     "move.extruders[].nonlinear.a": 3,
     "move.extruders[].nonlinear.b": 3,
@@ -134,13 +134,11 @@ DECIMALS: Mapping[str, int] = {
     "move.kinematics.yTilt": 5,
     "move.printingAcceleration": 1,
     "move.queue[].gracePeriod": 3,
-    "move.rotation.angle": 1,
-    "move.rotation.centre[]": 3,
     "move.shaping.amplitudes[]": 3,
     "move.shaping.damping": 2,
     "move.shaping.delays[]": 5,
     "move.shaping.durations[]": 5,
-    "move.shaping.frequency": 1,
+    "move.shaping.frequency": 2,
     "move.shaping.minAcceleration": 1,
     "move.shaping.minimumAcceleration": 1,
     "move.shaping.reductionLimit": 2,
@@ -160,7 +158,7 @@ DECIMALS: Mapping[str, int] = {
     "sensors.probes[].lastStopHeight": 3,
     "sensors.probes[].measuredHeight": 3,
     "sensors.probes[].offsets[]": 2,
-    "sensors.probes[].recoveryTime": 2,
+    "sensors.probes[].recoveryTime": 1,
     "sensors.probes[].speed": 1,
     "sensors.probes[].speeds[]": 1,
     "sensors.probes[].temperatureCoefficient": 5,
@@ -182,8 +180,8 @@ DECIMALS: Mapping[str, int] = {
     "tools[].feedForward[]": 3,
     "tools[].mix[]": 2,
     "tools[].offsets[]": 3,
-    "tools[].retraction.extraRestart": 2,
-    "tools[].retraction.length": 2,
+    "tools[].retraction.extraRestart": 1,
+    "tools[].retraction.length": 1,
     "tools[].retraction.speed": 1,
     "tools[].retraction.unretractSpeed": 1,
     "tools[].retraction.zHop": 2,
@@ -203,4 +201,24 @@ def _tree(table: Mapping[str, int]) -> dict[str, Any]:
     return tree
 
 
-TREE = _tree(DECIMALS)
+EARLIER: tuple[tuple[tuple[int, ...], Mapping[str, int]], ...] = (
+    ((3, 5), {"move.extruders[].pressureAdvance": 2}),
+    (
+        (3, 4),
+        {
+            "heat.heaters[].current": 1,
+            "move.extruders[].factor": 2,
+            "sensors.analog[].lastReading": 1,
+        },
+    ),
+)
+"""What was printed otherwise before a release (RRF 3.3 Heater.cpp, Platform.cpp)."""
+
+
+def decimals_of(release: tuple[int, ...]) -> dict[str, Any]:
+    """Return the table of a firmware release as a tree."""
+    table = dict(DECIMALS)
+    for before, other in EARLIER:
+        if release < before:
+            table.update(other)
+    return _tree(table)

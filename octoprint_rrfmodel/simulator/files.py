@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from .card import Entry
 from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
-from .decimals import TREE
 from .fileinfo import file_info
 from .om import encoded, quoted, with_decimals
 from .serial_line import Kind, Reply
@@ -156,7 +155,7 @@ def information(board: Core, channel: Channel, command: Command) -> Outcome:
     if found is None or content is None:
         return Reply(f'{{"err":1,"fileName":{quoted(name)}}}\n', Kind.LONG)
     info = board.members_of(file_info(path, content, board.card.date(found)), "job.file")
-    return Reply(_information(info) + extra + "}\n", Kind.LONG)
+    return Reply(_information(board, info) + extra + "}\n", Kind.LONG)
 
 
 FIELDS = (
@@ -176,8 +175,8 @@ FIELDS = (
 """Members of M36 in the order they are printed."""
 
 
-def _information(info: dict[str, Any]) -> str:
-    shown = with_decimals(info, TREE["job"]["file"])
+def _information(board: Core, info: dict[str, Any]) -> str:
+    shown = with_decimals(info, board.model_text.decimals["job"]["file"])
     text = '{"err":0'
     for field in FIELDS:
         if field in shown and shown[field] not in (None, []) or field == "filament":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .build import NO_TAPER
 from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
 from .moves import axis_index, is_delta, named_axes, standstill
@@ -49,7 +50,7 @@ def mesh(board: Core, channel: Channel, command: Command) -> Outcome:
     mode = command.integer("S", 0)
     compensation = board.data["move"]["compensation"]
     if mode == 2:
-        compensation.update(file=None, fadeHeight=None, liveGrid=None, meshDeviation=None)
+        compensation.update(file=None, fadeHeight=NO_TAPER, liveGrid=None, meshDeviation=None)
         compensation["type"] = "none"
         board.bump("move")
         return None

@@ -99,8 +99,8 @@ class Job:
         job = self.data
         job.update(
             duration=0,
-            layer=0,
-            layerTime=0.0,
+            layer=None,
+            layerTime=None,
             pauseDuration=0,
             rawExtrusion=0.0,
             warmUpDuration=0,

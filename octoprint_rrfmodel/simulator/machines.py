@@ -180,7 +180,7 @@ def _many_axes() -> list[dict[str, Any]]:
 
 
 def _changer_tools() -> list[dict[str, Any]]:
-    offsets = ((0.0, 0.0, 0.0, 0.0), (0.21, -0.08, 0.05, 0.0), (-0.14, 0.3, -0.12, 0.0))
+    offsets = ((0.0, 0.0, 0.0), (0.21, -0.08, 0.05), (-0.14, 0.3, -0.12))
     return [
         parts.tool(number, name, [heater], [heater - 1], [heater - 1], ((0,), (1,)), offset)
         for number, name, heater, offset in (

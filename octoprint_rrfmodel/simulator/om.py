@@ -16,7 +16,7 @@ from typing import Any
 from octoprint_rrfmodel.rrf.m409 import answer
 from octoprint_rrfmodel.rrf.marks import MARKS
 
-from .decimals import TREE
+from .decimals import decimals_of
 from .firmware import Firmware
 from .output import utf8
 
@@ -115,11 +115,11 @@ def with_decimals(value: Any, node: Any) -> Any:
     return value
 
 
-def typed(model: Mapping[str, Any], key: str) -> dict[str, Any]:
+def typed(model: Mapping[str, Any], key: str, decimals: Mapping[str, Any]) -> dict[str, Any]:
     """Return the model ready for output; only the top-level member that ``key`` asks for is new."""
     wanted = re.split(r"[.\[^]", key.lstrip("#"), maxsplit=1)[0]
     return {
-        name: with_decimals(value, TREE.get(name)) if wanted in ("", name, "*") else value
+        name: with_decimals(value, decimals.get(name)) if wanted in ("", name, "*") else value
         for name, value in model.items()
     }
 
@@ -169,6 +169,7 @@ class ModelText:
     def __init__(self, firmware: Firmware, buffers: int, marks: Mapping[str, Any] = MARKS):
         self._firmware = firmware
         self._marks = marks
+        self.decimals = decimals_of(firmware.release)
         self.most_bytes = buffers * BUFFER_SIZE
         """What fits in all output buffers together."""
         self.array_bytes = (buffers - RESERVED_BUFFERS) * BUFFER_SIZE // 2
@@ -183,7 +184,7 @@ class ModelText:
             asked = _key_up_to_leaf(model, key)
         if not self._firmware.has_important_flag:
             seen_flags = flags.replace("i", "")
-        part = typed(model, asked)
+        part = typed(model, asked, self.decimals)
         limit = self._firmware.axes_limit
         if limit is not None and not re.search("[fa]", flags):
             part = _shortened_axes(part, limit)

@@ -22,9 +22,9 @@ _CHECKSUM = re.compile(r"\*\s*(\d+)\s*$")
 def _crc_table() -> list[int]:
     table = []
     for byte in range(256):
-        crc = byte
+        crc = byte << 8
         for _ in range(8):
-            crc = (crc >> 1) ^ 0xA001 if crc & 1 else crc >> 1
+            crc = ((crc << 1) ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
         table.append(crc)
     return table
 
@@ -33,10 +33,10 @@ _CRC_TABLE = _crc_table()
 
 
 def crc16(data: bytes) -> int:
-    """Return the CRC16 of RRFLibraries (polynomial 0xA001 reflected, initial value 0)."""
+    """Return the CRC16 of a line: CCITT as in XMODEM, initial value 0 (RRF CRC16.h)."""
     crc = 0
     for byte in data:
-        crc = (crc >> 8) ^ _CRC_TABLE[(crc ^ byte) & 0xFF]
+        crc = ((crc << 8) & 0xFF00) ^ _CRC_TABLE[(crc >> 8) ^ byte]
     return crc
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Callable
 
+from .build import NO_TAPER
 from .channel import Channel, Outcome, Running
 from .command import Command, GCodeError
 from .moves import standstill
@@ -134,7 +135,7 @@ def compatibility(board: Core, channel: Channel, command: Command) -> Outcome:
 def identity_transform(board: Core, channel: Channel, command: Command) -> Outcome:
     """M561: bed compensation off."""
     compensation = board.data["move"]["compensation"]
-    compensation.update(file=None, fadeHeight=None, meshDeviation=None)
+    compensation.update(file=None, fadeHeight=NO_TAPER, meshDeviation=None)
     compensation["type"] = "none"
     if "liveGrid" in compensation:
         compensation["liveGrid"] = None
