@@ -125,14 +125,20 @@ class ModelPlan:
     def failed(self) -> None:
         """Note that ``next_request`` brought nothing that could be used; it will be asked again.
 
-        Where one key fails again and again the others get their turn.
+        Where one key fails again and again the others get their turn, and so do keys that wait
+        where live values fail.
         """
         self._failures += 1
-        if self._failures >= PATIENCE and self._fetch is not None:
+        if self._failures < PATIENCE:
+            return
+        self._failures = 0
+        if self._fetch is not None:
             self._wanted.append(self._wanted.pop(0))
             self._fetch = None
-            self._failures = 0
             self._since_live = FETCHES_BETWEEN_LIVE
+        else:
+            self._live = self._live[1:]
+            self._since_live = 0
 
     def no_buffers(self) -> None:
         """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests."""
@@ -142,6 +148,8 @@ class ModelPlan:
         if self._fetch is not None:
             if not self._fetch.split():
                 self.failed()
+        elif self._live_in_parts:
+            self.failed()
         elif self._keys is not None:
             self._live_in_parts = True
 
