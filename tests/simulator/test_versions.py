@@ -1,0 +1,160 @@
+"""What differs between firmware versions on the wire."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from octoprint_rrfmodel.simulator.firmware import (
+    ALIASES,
+    VERSIONS,
+    UnknownFirmware,
+    firmware_called,
+)
+from octoprint_rrfmodel.simulator.members import MEMBERS, exists
+
+NAMES = list(VERSIONS)
+WITH_MODEL = [name for name in NAMES if name != "2.05"]
+
+M115 = {
+    "2.05": "FIRMWARE_NAME: RepRapFirmware for Duet 2 WiFi/Ethernet FIRMWARE_VERSION: 2.05.1 "
+    "ELECTRONICS: Duet WiFi 1.02 or later FIRMWARE_DATE: 2020-02-09b1",
+    "3.3": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.3 "
+    "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2021-06-15 21:46:11 "
+    "FIRMWARE_DATE: 2021-06-15 21:46:11",
+    "3.4": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.4.6 "
+    "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2023-07-21 14:08:28",
+    "3.5.1": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.5.1 "
+    "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2024-04-19 14:30:54",
+    "3.5.3": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.5.3 "
+    "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2024-10-01 14:21:40",
+    "3.6": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.6.0 "
+    "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2025-04-24 11:38:13",
+}
+
+
+@pytest.mark.parametrize("firmware", NAMES)
+def test_m115(bench, firmware):
+    assert bench(firmware=firmware).send("M115") == M115[firmware] + "\nok\n"
+
+
+@pytest.mark.parametrize(("alias", "name"), ALIASES.items())
+def test_alias(alias, name):
+    assert firmware_called(alias) is VERSIONS[name]
+
+
+def test_unknown_version_names_the_known_ones():
+    with pytest.raises(UnknownFirmware, match=r"unknown firmware '4.0', known are 2.05, 3.3"):
+        firmware_called("4.0")
+
+
+@pytest.mark.parametrize("line", ['M409 K"seqs"', "M568 P0 S200", "M486 T0", 'M36.1 P"a.gcode" S0'])
+def test_205_knows_none_of_the_newer_commands(bench, line):
+    name = line.split()[0]
+    expected = f"Warning: {name}: Command is not supported\nok\n"
+    assert bench(firmware="2.05").send(line) == expected
+
+
+def test_205_has_m408_and_g10(bench):
+    old = bench(firmware="2.05")
+    assert old.send("G10 P0 S200") == "ok\n"
+    status = json.loads(old.send("M408 S3")[: -len("\n\nok\n")])
+    assert status["temps"]["tools"]["active"] == [[200.0]]
+    assert status["firmwareVersion"] == "2.05.1"
+
+
+def test_205_runs_on_a_duet_2_only(bench):
+    assert "Duet 2 WiFi/Ethernet" in bench("corexy", "2.05").send("M115")
+
+
+@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.3"])
+def test_thumbnails_of_m36_came_with_34(bench, firmware):
+    reply = bench(firmware=firmware).send('M36 "square.gcode"')
+    assert ('"thumbnails"' in reply) is (firmware != "3.3")
+    assert ('"firstLayerHeight"' in reply) is (firmware == "3.3")
+
+
+SYNTAX = {
+    "3.3": "Error: M409: expected a string expression\nok\n",
+    "3.4": "Error: M409: expected a string expression\nok\n",
+    "3.5.1": "Error:  at column 7: M409: expected a string expression\nok\n",
+    "3.5.3": "Error:  at column 7: M409: expected a string expression\nok\n",
+    "3.6": "Error:  at column 7: M409: expected a string expression\nok\n",
+}
+
+
+@pytest.mark.parametrize(("firmware", "expected"), SYNTAX.items(), ids=SYNTAX)
+def test_syntax_errors(bench, firmware, expected):
+    assert bench(firmware=firmware).send("M409 K5") == expected
+    too_long = bench(firmware=firmware).send(f'M409 K"{"k" * 101}"')
+    assert too_long == expected.replace("expected a string expression", "string too long")
+
+
+@pytest.mark.parametrize("length", [20, 21])
+def test_flags_have_a_limit(bench, length):
+    reply = bench().send(f'M409 K"x" F"{"f" * length}"')
+    assert reply.startswith("{" if length == 20 else "Error:  at column 12: M409: string too long")
+
+
+@pytest.mark.parametrize("firmware", WITH_MODEL)
+@pytest.mark.parametrize("path", sorted(MEMBERS))
+def test_members_are_those_of_the_version(bench, firmware, path):
+    """Any member that the table knows is there or isn't, wherever its object is."""
+    board = bench("cartesian", firmware).board
+    holders = [board.model]
+    *parents, name = path.replace("[]", ".[]").split(".")
+    for step in parents:
+        found = []
+        for holder in holders:
+            if step == "[]":
+                found += [e for e in holder if e is not None] if isinstance(holder, list) else []
+            elif isinstance(holder, dict) and isinstance(holder.get(step), (dict, list)):
+                found.append(holder[step])
+        holders = found
+    if not exists(path, board.firmware):
+        assert not any(name in holder for holder in holders if isinstance(holder, dict))
+
+
+@pytest.mark.parametrize("firmware", WITH_MODEL)
+def test_members_come_in_the_firmwares_order(bench, firmware):
+    def check(value, path):
+        if isinstance(value, dict):
+            names = list(value)
+            if path not in ("global", "limits"):
+                assert names == sorted(names), path
+            for name, member in value.items():
+                check(member, f"{path}.{name}".lstrip("."))
+        elif isinstance(value, list):
+            for element in value:
+                check(element, path + "[]")
+
+    check(bench(firmware=firmware).board.model, "")
+
+
+LIVE_ROOT = {
+    "boards", "fans", "heat", "inputs", "job", "move", "sensors", "seqs", "spindles", "state",
+    "tools",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("firmware", WITH_MODEL)
+def test_live_root(bench, firmware):
+    found = bench(firmware=firmware).ask("", "d99fn")
+    assert set(found) == LIVE_ROOT
+
+
+@pytest.mark.parametrize("firmware", WITH_MODEL)
+def test_keys_of_the_root(bench, firmware):
+    keys = set(bench(firmware=firmware).ask("", "vno"))
+    assert ("ledStrips" in keys) is firmware.startswith(("3.5", "3.6"))
+    assert ("scanner" in keys) is firmware.startswith(("3.3", "3.4"))
+
+
+@pytest.mark.parametrize("firmware", WITH_MODEL)
+def test_sequence_numbers(bench, firmware):
+    found = bench(firmware=firmware).ask("seqs", "d99vn")
+    assert ("ledStrips" in found) is firmware.startswith(("3.5", "3.6"))
+    assert ("scanner" in found) is firmware.startswith(("3.3", "3.4"))
+    assert found["volChanges"] == [0, 0]
+    assert found["move"] == 0
