@@ -31,7 +31,8 @@ class StatusPlan:
     def _begin(self) -> None:
         self._model = M408Model()
         self._untried = list(FORMS)
-        self._answered: list[int] = []
+        self._again: list[int] = []
+        self._answered: set[int] = set()
         self._asked = 0
         self._failures = 0
         self._printing = False
@@ -44,8 +45,8 @@ class StatusPlan:
 
     @property
     def behind(self) -> bool:
-        """Whether forms are left to try."""
-        return bool(self._untried)
+        """Whether forms are left to ask once."""
+        return bool(self._untried or self._again)
 
     @property
     def exhausted(self) -> bool:
@@ -59,8 +60,8 @@ class StatusPlan:
 
     def next_request(self) -> Request:
         """Return what to ask now; the same again until it was answered or given up."""
-        if self._untried:
-            return StatusRequest(self._untried[0])
+        if self.behind:
+            return StatusRequest((self._untried or self._again)[0])
         settings = 3 if 3 in self._answered else 1
         status = 4 if self._printing else 2
         if status not in self._answered:
@@ -73,16 +74,16 @@ class StatusPlan:
         """Take the answer to ``next_request``; return the model's keys as they now are."""
         self._failures = 0
         self._asked += 1
-        if self._untried:
-            self._answered.append(self._untried.pop(0))
+        if self.behind:
+            self._answered.add((self._untried or self._again).pop(0))
         model = self._model.take(reply.fields)
         return [Update(key, value) for key, value in model.items()]
 
     def failed(self) -> None:
         """Note that ``next_request`` brought nothing that could be used."""
         self._failures += 1
-        if self._failures >= PATIENCE and self._untried:
-            self._untried.pop(0)
+        if self._failures >= PATIENCE and self.behind:
+            (self._untried or self._again).pop(0)
             self._failures = 0
 
     def no_buffers(self) -> None:
@@ -102,6 +103,5 @@ class StatusPlan:
         return False
 
     def refetch(self, key: str = "") -> None:
-        """Ask each form again: none of them is one key."""
-        self._untried = [form for form in FORMS if form in self._answered]
-        self._answered = []
+        """Ask each form again: none of them is one key. Those answered so far stay known."""
+        self._again = [form for form in FORMS if form not in self._untried]
