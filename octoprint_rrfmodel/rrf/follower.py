@@ -78,8 +78,12 @@ class Follower:
             if isinstance(reply, NoBuffers):
                 self.counters["out_of_buffers"] += 1
                 self._plan.no_buffers()
+                self._begin_if_exhausted()
                 return Taken({}, False)
             if not answers(reply, request):
+                if isinstance(reply, ModelReply) and isinstance(self._plan, StatusPlan):
+                    # it was only late, or somebody else asked: the board has M409 after all
+                    self.forget()
                 return None
             self.counters["replies"] += 1
             self.protocol = "M409" if isinstance(reply, ModelReply) else "M408"
@@ -90,7 +94,7 @@ class Follower:
         except (MalformedReply, NestedTooDeep) as error:
             self.counters["malformed"] += 1
             self._reader.forget()
-            self._plan.failed()
+            self._failed()
             raise MalformedReply(str(error)) from None
         if self._plan.observe(self.store.model):
             self.resets += 1
@@ -103,20 +107,27 @@ class Follower:
         """Note that ``next_request`` was sent and nothing came."""
         self.counters["timeouts"] += 1
         self._unanswered += 1
-        if self.protocol is None and self._unanswered >= NOT_SUPPORTED_AFTER:
+        if self._unanswered >= NOT_SUPPORTED_AFTER:
             self.not_supported()
         else:
-            self._plan.failed()
+            self._failed()
 
     def not_supported(self) -> None:
         """Note that the firmware doesn't know the command: try the other one, turn by turn."""
         if self.protocol is None and isinstance(self._plan, ModelPlan):
             self._plan = StatusPlan()
             self._unanswered = 0
-            return
+        else:
+            self._failed()
+
+    def _failed(self) -> None:
         self._plan.failed()
+        self._begin_if_exhausted()
+
+    def _begin_if_exhausted(self) -> None:
+        """Try ``M409`` once more where ``M408`` brought nothing either."""
         if isinstance(self._plan, StatusPlan) and self._plan.exhausted:
-            self._plan = ModelPlan()
+            self.forget()
 
     def refetch(self, key: str = "") -> None:
         """Ask for a key again, or for all of them."""
