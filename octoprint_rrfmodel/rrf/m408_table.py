@@ -165,7 +165,8 @@ STATUS_FIELDS = (
     Row("laser", "move.currentMove.laserPwm", _fraction),
     Row("coldExtrudeTemp", "heat.coldExtrudeTemperature"),
     Row("coldRetractTemp", "heat.coldRetractTemperature"),
-    Row("compensation", "move.compensation.type"),
+    # "None" and "Mesh" here
+    Row("compensation", "move.compensation.type", lambda name: name.lower()),
     Row("controllableFans", None),
     Row("tempLimit", None),
     Row("endstops", None),
