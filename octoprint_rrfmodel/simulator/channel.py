@@ -120,7 +120,9 @@ class Channel:
         while not self.is_stuck:
             if self._running is not None:
                 if self._wait is not None and not self._wait():
-                    return
+                    if not self._answers_box():
+                        return
+                    continue
                 self._resume()
             elif self._pending:
                 self._execute(self._pending.popleft())
@@ -128,6 +130,20 @@ class Channel:
                 self._take(self.lines.popleft())
             else:
                 return
+
+    def _answers_box(self) -> bool:
+        """Run an M292 past the box that this channel waits for; return whether there was one."""
+        if not self.awaits_acknowledgement or not self.lines:
+            return False
+        if not self.lines[0].lstrip().upper().startswith("M292"):
+            return False
+        (command,) = self._commands(self.lines.popleft())
+        try:
+            reply = as_reply(self._board.execute_command(self, command))
+        except (GCodeError, SyntaxProblem) as error:
+            reply = Reply(f"Error: {command.name}: {error}")
+        self._write(framed(reply, self.input["compatibility"], True, False))
+        return True
 
     def _take(self, text: str) -> None:
         """Read one line: an upload's line goes to the card, a bad one nowhere."""

@@ -16,8 +16,6 @@ from .fileinfo import file_info
 if TYPE_CHECKING:
     from .core import Core
 
-LOOK_AHEAD = 4
-"""Lines read at once; a job's channel is never far ahead of the movement queue."""
 _LAYER_COMMENT = re.compile(r";LAYER_CHANGE|;LAYER:(\d+)")
 """A slicer's layer change; the group is its number from 0 where it gives one."""
 
@@ -121,7 +119,7 @@ class Job:
         }
 
     def feed(self) -> None:
-        """Give the File channel its next lines, and end the job after the last one."""
+        """Give the File channel its next line, and end the job after the last one."""
         channel = self._board.channels["File"]
         if self.state != PRINTING or not channel.is_idle:
             return
@@ -132,16 +130,14 @@ class Job:
             if not self._board.motion.is_moving:
                 self.finish(cancelled=False)
             return
-        for _ in range(LOOK_AHEAD):
-            if self._next < len(self._lines):
-                line = self._lines[self._next]
-                self._next += 1
-                self.position += len(line)
-                text = line.decode("utf-8", "replace").rstrip("\r\n")
-                if text.startswith(";"):
-                    self._comment(text)
-                else:
-                    channel.lines.append(text)
+        line = self._lines[self._next]
+        self._next += 1
+        self.position += len(line)
+        text = line.decode("utf-8", "replace").rstrip("\r\n")
+        if text.startswith(";"):
+            self._comment(text)
+        else:
+            channel.lines.append(text)
 
     def _go_through(self) -> None:
         """Let the position of a simulated print follow its time; nothing is executed."""
@@ -161,7 +157,7 @@ class Job:
         if self._warm_up is None:
             self._warm_up = self.duration
             self.data["warmUpDuration"] = int(self.duration)
-        self.data["layer"] = number
+        self.data.update(layer=number, layerTime=0.0)
         self._layer_started = self.duration
 
     def extruded(self, amount: float, position: Sequence[float]) -> None:
@@ -177,6 +173,11 @@ class Job:
             self.duration += seconds * (SIMULATION_SPEED if self.is_simulation else 1.0)
         elif self.state in (PAUSED, PAUSING, RESUMING):
             self._pause_seconds += seconds
+
+    def show(self) -> None:
+        """Put the progress into the model."""
+        if not self.is_printing:
+            return
         job = self.data
         job["duration"] = int(self.duration + self._pause_seconds)
         job["pauseDuration"] = int(self._pause_seconds)

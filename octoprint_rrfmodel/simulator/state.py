@@ -49,6 +49,7 @@ def date_time(board: Core) -> str:
 def show(board: Core) -> None:
     """Bring positions, status, clocks and inputs of the model up to date."""
     board.motion.show(board.now)
+    board.job.show()
     state = board.data["state"]
     up_time = board.up_time
     state["status"] = shown_status(board)
