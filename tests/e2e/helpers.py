@@ -5,8 +5,6 @@ import re
 import time
 
 from octoprint_rrfmodel.rrf.m409 import MARKS
-from octoprint_rrfmodel.simulator.decimals import TREE
-from octoprint_rrfmodel.simulator.om import encoded, with_decimals
 
 READY_SECONDS = 15
 LIVE_SECONDS = 3
@@ -86,9 +84,27 @@ def wait_polls(server, count=3, seconds=30):
 # the model and the board's own
 
 
-def printed(key, part):
-    """Return a part of the board's model as it reads after the firmware has printed it."""
-    return json.loads(encoded(with_decimals(part, TREE.get(key))))
+def own_reply(board, key, flags):
+    """Return what the board answers on its network to one M409."""
+    lines = board.board.execute(f'M409 K"{key}" F"{flags}"', channel="http").splitlines()
+    # what earlier commands of that channel have left to say comes first
+    return json.loads([line for line in lines if line.startswith("{")][-1])
+
+
+def own_value(board, key):
+    """Return what the board answers to M409 on its network, in as many parts as it needs."""
+    items = []
+    while True:
+        reply = own_reply(board, key, f"d99vnoa{len(items)}")
+        if "err" in reply:
+            # too long for the board's buffers as a whole
+            names = own_reply(board, key, "d2vno")["result"]
+            return {name: own_value(board, f"{key}.{name}") for name in names}
+        if not isinstance(reply["result"], list):
+            return reply["result"]
+        items += reply["result"]
+        if not reply["next"]:
+            return items
 
 
 def differences(known, own, pattern):
@@ -119,18 +135,15 @@ def differences(known, own, pattern):
 def model_differences(server, board, keys=None):
     """Return where the plugin's model and the board's own differ, live members apart."""
     found = []
-    with board.board.lock:
-        own_model = json.loads(json.dumps(board.board.model))
-    # thisInput is the channel that asks, and USB is the third
-    if "thisInput" in own_model["state"]:
-        own_model["state"]["thisInput"] = 3
-    for key in keys or own_model:
-        if key == "seqs":
-            continue
+    for key in keys or [name for name in board.board.model if name != "seqs"]:
+        own = own_value(board, key)
+        # the channel that asks: this was the network, and USB is the third
+        if key == "state" and "thisInput" in own:
+            own["thisInput"] = 3
         known = answer(server, key, "d99vno")
         if known.get("next"):
             found.append(f"{key}: cut, next is {known['next']}")
-        found.extend(differences(known["result"], printed(key, own_model[key]), key))
+        found.extend(differences(known["result"], own, key))
     return found
 
 

@@ -6,8 +6,6 @@ import pytest
 
 from . import helpers
 
-pytestmark = pytest.mark.slow
-
 MACHINES = ("cartesian", "corexy", "toolchanger", "delta", "idex", "cnc", "manyaxes")
 
 # firmware → the version that it reports
