@@ -8,7 +8,7 @@ whole. They are collected, and the model is built from all of them by the rows o
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 from .m408_table import CONFIG_FIELDS, LEGACY, STATUS_FIELDS, Row
@@ -25,6 +25,12 @@ _REFERENCE = re.compile(r"\{([\w.]+)\}")
 
 _ABSENT = object()
 
+_NONSENSE = (TypeError, ValueError, LookupError, ArithmeticError, AttributeError)
+"""What a row's ``convert`` may raise."""
+
+MOST_HEATERS = 64
+"""A heater's number from here on is a spoilt one; no firmware has as many."""
+
 
 class M408Model:
     """Collects the forms that come and gives the model they make."""
@@ -34,25 +40,26 @@ class M408Model:
         self._status: dict[str, Any] = {}
         self._config: dict[str, Any] = {}
 
-    def take(self, fields: Mapping[str, Any]) -> dict[str, Any]:
+    def take(self, fields: dict[str, Any]) -> dict[str, Any]:
         """Keep a reply of whatever form and return the whole model, by top-level key."""
         if "heaters" in fields:
-            self._legacy = {**self._legacy, **fields}
-            if "msgBox.mode" in fields and fields["msgBox.mode"] == -1:
-                self._legacy = {k: v for k, v in self._legacy.items() if k[:7] != "msgBox."}
+            self._legacy = patched(self._legacy, fields)[0]
+            if fields.get("msgBox.mode") == -1:
+                self._legacy = _without_box(self._legacy)
         elif "status" in fields:
             # a box, a beep and a message are only there while they last
-            self._status = {**patched(self._status, dict(fields))[0]}
-            if "output" not in fields:
-                self._status.pop("output", None)
+            lasting = {name: value for name, value in self._status.items() if name != "output"}
+            self._status = patched(lasting, fields)[0]
+            self._legacy = _without_box(self._legacy)
         else:
-            self._config = {**self._config, **fields}
+            self._config = patched(self._config, fields)[0]
         return self.model()
 
     def model(self) -> dict[str, Any]:
         """Return the model that the replies so far make."""
         model: dict[str, Any] = {}
-        axes = len(self._status.get("axisNames") or self._config.get("axisMins") or "XYZ")
+        names = self._status.get("axisNames") or self._config.get("axisMins")
+        axes = len(names) if isinstance(names, (str, list)) else len("XYZ")
         for fields, rows in (
             (self._legacy, LEGACY),
             (self._config, CONFIG_FIELDS),
@@ -70,6 +77,11 @@ class M408Model:
         return model
 
 
+def _without_box(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the members of S0 without those of a message box."""
+    return {name: value for name, value in fields.items() if not name.startswith("msgBox.")}
+
+
 def _place(
     model: dict[str, Any], fields: dict[str, Any], kept: dict[str, Any], row: Row, axes: int
 ) -> None:
@@ -78,7 +90,10 @@ def _place(
         return
     path = row.path
     for reference in _REFERENCE.findall(path):
-        path = path.replace(f"{{{reference}}}", str(_at(fields, reference)))
+        index = _at(fields, reference)
+        if type(index) is not int or not 0 <= index < MOST_HEATERS:
+            return
+        path = path.replace(f"{{{reference}}}", str(index))
     field, part = row.field, slice(None)
     if sliced := _SLICE.search(field):
         start, end = sliced.groups()
@@ -88,7 +103,7 @@ def _place(
     for indexes, value in _values(fields, field, part):
         try:
             value = row.convert(value)
-        except (TypeError, ValueError, IndexError):
+        except _NONSENSE:
             continue
         found = True
         if value is not None or "[]" not in path:
@@ -204,8 +219,13 @@ def _complete(model: dict[str, Any]) -> None:
     heaters = heat.get("heaters", [])
     for tool in filter(None, model.get("tools", [])):
         for name in ("active", "standby"):
-            for heater, target in zip(tool.get("heaters", []), tool.get(name) or []):
-                if heater < len(heaters) and heaters[heater] is not None:
+            for heater, target in zip(_array(tool.get("heaters")), _array(tool.get(name))):
+                known = type(heater) is int and 0 <= heater < len(heaters)
+                if known and heaters[heater] is not None:
                     heaters[heater][name] = target
     if "state" in model:
         model["state"].setdefault("messageBox", None)
+
+
+def _array(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
