@@ -211,7 +211,13 @@ class OctoPrintServer:
 
     def connect(self, port: str | Path, baudrate: int = 115200) -> None:
         """Tell OctoPrint to open the port; ``wait_state`` tells when the printer is there."""
-        request = {"command": "connect", "port": str(port), "baudrate": baudrate}
+        request = {
+            "command": "connect",
+            "port": str(port),
+            "baudrate": baudrate,
+            # without it 2.0 takes its built-in profile, not the one in the base folder
+            "printerProfile": "_default",
+        }
         _ok(self.post("/api/connection", json=request))
 
     def disconnect(self) -> None:
