@@ -10,6 +10,19 @@ READY_SECONDS = 15
 LIVE_SECONDS = 3
 SETTLED_SECONDS = 5
 
+INTERVAL = 3
+"""Seconds without a line after which OctoPrint counts a timeout; the second one is the end."""
+
+SHORT_TIMEOUTS = {
+    "timeout": {
+        "communication": INTERVAL,
+        "communicationBusy": INTERVAL,
+        "temperature": 2,
+        "temperatureTargetSet": 2,
+    },
+    "maxCommunicationTimeouts": {"idle": 1, "printing": 1, "long": 1},
+}
+
 NUMBERED = re.compile(r"(?:N\d+ ?)?(?P<command>.*?)(?:\*\d+)?$")
 """A line as it came in on the wire; group ``command`` is the G-code."""
 
@@ -181,3 +194,23 @@ def polls_without_status(sent):
         for number, command in enumerate(sent[:-1])
         if is_poll(command) and sent[number + 1] != "M105"
     ]
+
+
+def index_of(sent, command):
+    """Return where a command is among those sent, from the end; -1 where it isn't."""
+    places = [number for number, found in enumerate(sent) if found == command]
+    return places[-1] if places else -1
+
+
+def assert_status_request_in_front(sent, command):
+    place = index_of(sent, command)
+    assert place > 0, sent[-20:]
+    assert sent[place - 1] == "M105", sent[place - 5 : place + 1]
+
+
+def assert_quiet(board, command, following):
+    """Nothing but a status request came in while a command ran, and one was right before it."""
+    sent = commands(board)
+    assert_status_request_in_front(sent, command)
+    between = sent[index_of(sent, command) + 1 : index_of(sent, following)]
+    assert [found for found in between if is_poll(found)] == []
