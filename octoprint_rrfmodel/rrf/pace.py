@@ -18,6 +18,9 @@ CATCHING_UP_SECONDS = 0.2
 
 LONGEST_SECONDS = 30.0
 
+MOST_FAILURES = 10
+"""More of them in a row count no further: a power of theirs would leave the range of a float."""
+
 OVERHEAD_BYTES = 120
 """Bytes around a reply: the request, the blank line, two ok, M105 and its temperatures."""
 
@@ -52,7 +55,7 @@ class Pace:
 
     def failed(self) -> None:
         """Note a poll that brought nothing: back off, the more the oftener."""
-        self._failures += 1
+        self._failures = min(self._failures + 1, MOST_FAILURES)
 
     def wait(self, printing: bool, behind: bool = False, begins: bool = False) -> float:
         """Return the seconds between the end of the last poll and the next one.
