@@ -83,7 +83,7 @@ def _slots(heaters: list[Any], slots: Any) -> Iterator[tuple[int, Temperature]]:
 
 def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tuple[str, float]]:
     """Yield name and reading of each working sensor that isn't a heater's own."""
-    used = {_object(heater).get("sensor") for heater in heaters}
+    used = [_object(heater).get("sensor") for heater in heaters]
     sensors = _array(_object(model.get("sensors")).get("analog"))
     for number, sensor in enumerate(sensors):
         reading = _object(sensor).get("lastReading")
