@@ -10,7 +10,9 @@ from .core import Core
 from .parts import INPUT_NAMES
 
 STEP = 0.25
-"""Longest step of simulated time, in seconds."""
+"""Longest step of simulated time while something is going on, in seconds."""
+IDLE_STEP = 10.0
+"""Longest step while nothing but temperatures can change."""
 THERMAL_STEP = 0.1
 RECEIVE_BUFFER = 512
 """Bytes that the board takes from USB while it is busy; the host has to wait with the rest."""
@@ -92,7 +94,8 @@ class Board(Core):
             if self.now >= target:
                 self._pump()
             while self.now < target:
-                self._step(min(target, self.now + STEP, max(self.motion.next_end, self.now)))
+                step = STEP if self._has_work() else IDLE_STEP
+                self._step(min(target, self.now + step, max(self.motion.next_end, self.now)))
 
     def execute(self, gcode: str, channel: str = "http") -> str:
         """Run G-code on another channel and return what it has replied so far.
@@ -146,6 +149,17 @@ class Board(Core):
                 text = line.decode("utf-8", "surrogateescape")
                 self.log.append(Received(self.now, text))
                 usb.append(text)
+
+    def _has_work(self) -> bool:
+        """Return whether something waits for a moment in time."""
+        return bool(
+            self.pending
+            or self.motion.is_moving
+            or self.job.is_printing
+            or self.boxes.current
+            or self.faults.names()
+            or not all(channel.is_idle for channel in self._used_channels)
+        )
 
     def _step(self, until: float) -> None:
         seconds = until - self.now

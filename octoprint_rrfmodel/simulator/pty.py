@@ -119,7 +119,8 @@ class PtyBoard:
     def _events(self, master: int) -> int:
         """Wait a moment for something to happen; return what has."""
         poll = select.poll()
-        poll.register(master, select.POLLIN if self.board.has_room else 0)
+        wanted = select.POLLIN if self.board.has_room else 0
+        poll.register(master, wanted | (select.POLLOUT if self._unsent else 0))
         found = poll.poll(TICK_SECONDS * 1000)
         return found[0][1] if found else 0
 
