@@ -6,7 +6,7 @@ import copy
 from collections.abc import Sequence
 from typing import Any
 
-from . import parts
+from . import blank, parts
 from .boards import toolboard
 from .firmware import Firmware
 from .machines import Machine, mainboard
@@ -128,7 +128,7 @@ def _state(machine: Machine, axes: int) -> dict[str, Any]:
         "nextTool": -1,
         "powerFailScript": "",
         "previousTool": -1,
-        "restorePoints": [parts.restore_point(axes) for _ in range(6)],
+        "restorePoints": [blank.restore_point(axes) for _ in range(6)],
         "startupError": None,
         "status": "starting",
         "thisActive": True,
@@ -228,8 +228,8 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
             "coldRetractTemperature": 90.0,
             "heaters": machine.heaters(),
         },
-        "inputs": parts.input_list(release_35, not board.is_duet2, not board.is_duet2),
-        "job": parts.no_job(),
+        "inputs": blank.input_list(release_35, not board.is_duet2, not board.is_duet2),
+        "job": blank.no_job(),
         "ledStrips": [
             {"board": 0, "pin": pin, "stopMovement": True, "type": kind}
             for pin, kind in machine.led_strips

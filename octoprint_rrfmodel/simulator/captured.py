@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, Callable
 
-from . import parts
+from . import blank, parts
 from .boards import Mainboard
 from .build import full_model
 from .firmware import VERSIONS, Firmware
@@ -132,7 +132,7 @@ _BOARD = {
 ELEMENTS: dict[tuple[str, str], Callable[[int], Mapping[str, Any]]] = {
     ("tools", ""): _tool,
     ("fans", ""): lambda index: parts.fan(),
-    ("inputs", ""): lambda index: parts.gcode_input(parts.INPUT_NAMES[index % 14]),
+    ("inputs", ""): lambda index: blank.gcode_input(blank.INPUT_NAMES[index % 14]),
     ("spindles", ""): lambda index: parts.spindle(),
     ("heat", "heaters"): lambda index: parts.heater(-1, 280.0, 2.0, 0.5),
     ("move", "axes"): _axis,
@@ -174,6 +174,6 @@ def completed(model: Mapping[str, Any], firmware: Firmware) -> dict[str, Any]:
         whole["inputs"] = usual["inputs"]
     for gcode_input in whole["inputs"]:
         # single-board computer software fills this in its own way, and has no USB channel
-        if gcode_input is not None and gcode_input["name"] in parts.MARLIN_CHANNELS:
+        if gcode_input is not None and gcode_input["name"] in blank.MARLIN_CHANNELS:
             gcode_input["compatibility"] = "Marlin"
     return whole

@@ -10,6 +10,7 @@ from typing import Any, Callable
 from octoprint_rrfmodel.rrf.m409 import answer
 
 from . import gcodes, reports, state
+from .blank import INPUT_NAMES, gcode_input, no_job
 from .build import full_model
 from .captured import completed, identity
 from .card import SYSTEM, Card
@@ -24,7 +25,6 @@ from .messagebox import MessageBoxes
 from .motion import Motion
 from .om import ModelText
 from .output import Output
-from .parts import INPUT_NAMES, gcode_input, no_job
 from .thermal import Thermal
 
 START_SECONDS = 1.0

@@ -4,7 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Callable
 
-from . import files, heaters, homing, jobcodes, messagebox, meta, moves, reports, settings, tools
+from . import (
+    coordinates,
+    filaments,
+    files,
+    heaters,
+    homing,
+    jobcodes,
+    messagebox,
+    meta,
+    moves,
+    reports,
+    settings,
+    tools,
+)
 from .channel import Channel, Outcome
 from .command import Command, GCodeError
 from .serial_line import Reply
@@ -16,7 +29,9 @@ Function = Callable[["Core", Channel, Command], Outcome]
 
 MODULES = (
     settings,
+    filaments,
     moves,
+    coordinates,
     homing,
     tools,
     heaters,

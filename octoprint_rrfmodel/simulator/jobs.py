@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import parts
+from . import blank
 from .fileinfo import file_info
 
 if TYPE_CHECKING:
@@ -213,7 +213,7 @@ class Job:
         name, simulated = self.path or "", self.is_simulation
         last = int(self.duration)
         warm_up = int(self._warm_up or 0)
-        board.data["job"] = board.members_of(parts.no_job(), "job")
+        board.data["job"] = board.members_of(blank.no_job(), "job")
         job = self.data
         job["lastFileName"], job["lastDuration"] = name, last
         if "lastWarmUpDuration" in job:

@@ -6,9 +6,9 @@ import json
 
 import pytest
 
+from octoprint_rrfmodel.simulator.blank import INPUT_NAMES
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
 from octoprint_rrfmodel.simulator.machines import MACHINES, UnknownMachine, machine_called
-from octoprint_rrfmodel.simulator.parts import INPUT_NAMES
 
 KEYS = [
     "boards",
