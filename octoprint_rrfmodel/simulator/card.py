@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from typing import NamedTuple
 
+from .letters import utf8
 from .sample import SAMPLE_FILES, SAMPLE_FOLDERS
 
 GCODES = "0:/gcodes"
@@ -63,11 +64,11 @@ class Card:
         """Make or replace a file, and the folders it is in."""
         self.make_folder(posixpath.dirname(path))
         stored = self._stored(path) or path
-        self._files[stored] = bytearray(content.encode("utf-8", "surrogateescape"))
+        self._files[stored] = bytearray(utf8(content))
         self._dates[stored] = date
 
     def append(self, path: str, text: str) -> None:
-        self._files[self._stored(path) or path] += text.encode("utf-8", "surrogateescape")
+        self._files[self._stored(path) or path] += utf8(text)
 
     def read(self, path: str) -> bytes | None:
         """Return the content; ``None`` where there is no such file."""

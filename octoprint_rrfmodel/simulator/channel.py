@@ -13,6 +13,7 @@ from types import GeneratorType
 from typing import TYPE_CHECKING, Any, Callable, Union
 
 from .command import Command, GCodeError, SyntaxProblem, commands_of, without_comment
+from .letters import utf8
 from .serial_line import Kind, Reply, framed, parse_line
 
 if TYPE_CHECKING:
@@ -156,7 +157,7 @@ class Channel:
         if self.upload is not None and not line.text.lstrip().upper().startswith("M29"):
             self._board.card.append(self.upload, line.text + "\n")
             return
-        if len(line.text.encode("utf-8", "surrogateescape")) >= firmware.line_length:
+        if len(utf8(line.text)) >= firmware.line_length:
             self._answer(Reply("Error: GCode command too long"), True)
             return
         try:

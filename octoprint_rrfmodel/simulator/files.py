@@ -6,6 +6,7 @@ what OctoPrint waits for: sizes are missing, and no "SD card ok" is ever said.
 
 from __future__ import annotations
 
+import hashlib
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -203,6 +204,15 @@ def _thumbnail(board: Core, command: Command) -> Outcome:
     )
 
 
+def file_hash(board: Core, channel: Channel, command: Command) -> Outcome:
+    """M38: the SHA1 of a file (compiled out in 3.5)."""
+    name = command.unquoted_text()
+    content = board.card.read(board.card.path_of(name))
+    if content is None:
+        raise GCodeError(f"Cannot open file {name}")
+    return hashlib.sha1(content).hexdigest()
+
+
 def card_information(board: Core, channel: Channel, command: Command) -> Outcome:
     """M39: text, with S2 JSON."""
     volume: dict[str, Any] | None = (board.data.get("volumes") or [None])[0]
@@ -240,6 +250,7 @@ TABLE = {
     "M29": end_upload,
     "M30": delete,
     "M36": information,
+    "M38": file_hash,
     "M39": card_information,
     "M98": run_macro,
 }

@@ -59,6 +59,9 @@ SINCE = {
 }
 """Command → first release that knows it."""
 
+UNTIL = {"M38": (3, 5)}
+"""Command → first release that knows it no longer."""
+
 
 def key_of(command: Command) -> str:
     """Return the command's key in :data:`TABLE`; fractions other than M36.1 don't count."""
@@ -74,7 +77,13 @@ def execute(board: Core, channel: Channel, command: Command) -> Outcome:
         raise GCodeError("Machine is halted")
     function = TABLE.get(key)
     since = SINCE.get("M36.1" if command.name == "M36.1" else key)
-    if function is None or (since is not None and board.firmware.release < since):
+    until = UNTIL.get(key)
+    release = board.firmware.release
+    if (
+        function is None
+        or (since is not None and release < since)
+        or (until is not None and release >= until)
+    ):
         return _unknown(board, channel, command)
     return function(board, channel, command)
 

@@ -106,7 +106,7 @@ def stop(board: Core, channel: Channel, command: Command) -> Outcome:
     job = board.job
     if channel.name == "File":
         return _end(board)
-    if job.is_printing and job.state != jobs.PAUSED:
+    if job.state != jobs.PAUSED:
         raise GCodeError("Pause the print before attempting to cancel it")
     return _cancel(board, channel)
 
@@ -117,15 +117,12 @@ def _end(board: Core) -> Running:
 
 
 def _cancel(board: Core, channel: Channel) -> Running:
-    was_printing = board.job.is_printing
-    if was_printing:
-        board.job.state = jobs.CANCELLING
+    board.job.state = jobs.CANCELLING
     with board.running_macro(channel):
         yield standstill(board)
-        yield from board.run_system_macro(channel, "cancel.g" if was_printing else "stop.g")
+        yield from board.run_system_macro(channel, "cancel.g")
         yield board.after(CANCEL_SECONDS)
-    if was_printing:
-        board.job.finish(cancelled=True)
+    board.job.finish(cancelled=True)
 
 
 def set_position(board: Core, channel: Channel, command: Command) -> Outcome:
@@ -182,6 +179,7 @@ TABLE = {
     "M27": tell_progress,
     "M32": select_and_start,
     "M37": simulate,
+    "M125": pause,
     "M226": pause_from_file,
     "M486": objects,
     "M600": pause_from_file,

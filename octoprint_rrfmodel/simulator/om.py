@@ -18,7 +18,7 @@ from octoprint_rrfmodel.rrf.marks import MARKS
 
 from .decimals import decimals_of
 from .firmware import Firmware
-from .output import utf8
+from .letters import utf8
 
 OUT_OF_BUFFERS = '{"err":-1}'
 RESERVED_BUFFERS = 4

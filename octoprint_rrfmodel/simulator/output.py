@@ -5,18 +5,12 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
+from .letters import utf8
+
 if TYPE_CHECKING:
     from .core import Core
 
 BITS_PER_BYTE = 10
-
-
-def utf8(text: str) -> bytes:
-    """Return the bytes of a text; bytes that came in without being UTF-8 go out unchanged."""
-    try:
-        return text.encode("utf-8", "surrogateescape")
-    except UnicodeEncodeError:
-        return text.encode("utf-8", "replace")
 
 
 class Output:

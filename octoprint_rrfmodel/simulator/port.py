@@ -54,7 +54,8 @@ class SimulatedSerial:
         self._session = board.sessions
         self._buffer = bytearray()
         self._read_lock = threading.RLock()
-        self._cancelled = threading.Event()
+        self._wake = threading.Event()
+        self._is_cancelled = False
 
     def open(self) -> None:
         """Open the port again after :meth:`close`."""
@@ -69,7 +70,7 @@ class SimulatedSerial:
 
     def close(self) -> None:
         self.is_open = False
-        self._cancelled.set()
+        self._wake.set()
 
     def _check(self) -> None:
         if not self.is_open:
@@ -87,7 +88,7 @@ class SimulatedSerial:
 
     def _wait(self, enough: Any) -> bool:
         """Fetch until ``enough()`` or the timeout; return whether it is enough."""
-        self._cancelled.clear()
+        self._is_cancelled = False
         end = None if self.timeout is None else time.monotonic() + self.timeout
         while True:
             self._fetch()
@@ -95,9 +96,10 @@ class SimulatedSerial:
                 return True
             if end is not None and time.monotonic() >= end:
                 return False
-            if self._cancelled.wait(POLL_SECONDS):
-                if not self.is_open:
-                    raise _serial_error("Attempting to use a port that is not open")
+            # a write of another thread wakes this one, so that its answer isn't late
+            self._wake.wait(POLL_SECONDS)
+            self._wake.clear()
+            if self._is_cancelled:
                 return False
 
     @property
@@ -139,6 +141,7 @@ class SimulatedSerial:
             self.board.advance()
             self._check()
         self.board.receive(bytes(data))
+        self._wake.set()
         return len(data)
 
     def flush(self) -> None:
@@ -157,7 +160,9 @@ class SimulatedSerial:
     flushOutput = reset_output_buffer
 
     def cancel_read(self) -> None:
-        self._cancelled.set()
+        """Let a waiting read return with what there is."""
+        self._is_cancelled = True
+        self._wake.set()
 
     def cancel_write(self) -> None:
         """A write never waits for long."""

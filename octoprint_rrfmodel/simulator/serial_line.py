@@ -9,6 +9,8 @@ import enum
 import re
 from typing import NamedTuple
 
+from .letters import utf8
+
 STRING_LENGTH = 256
 """Replies that aren't long ones pass a formatter of this size, NUL included
 (RRF 3.5 Configuration.h:151)."""
@@ -94,7 +96,7 @@ def parse_line(text: str, has_crc: bool = True, required: bool = False) -> Line 
     given = _CHECKSUM.match(text[at:])
     if given is None:
         return None
-    covered = text[:at].encode("utf-8", "surrogateescape")
+    covered = utf8(text[:at])
     digits = given.group(1)
     if len(digits) == 5 and has_crc:
         expected = crc16(covered)
@@ -136,7 +138,7 @@ NO_REPLY = Reply("", Kind.NONE)
 
 def _formatted(text: str) -> str:
     """Return the text as the 256-byte formatter leaves it: its tail may be lost."""
-    data = text.encode("utf-8", "surrogateescape")
+    data = utf8(text)
     if len(data) < STRING_LENGTH:
         return text
     return data[: STRING_LENGTH - 1].decode("utf-8", "surrogateescape")

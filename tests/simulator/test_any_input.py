@@ -16,7 +16,7 @@ from octoprint_rrfmodel.simulator.machines import MACHINES
 from octoprint_rrfmodel.simulator.om import number
 from octoprint_rrfmodel.simulator.serial_line import crc16, parse_line, xor
 
-EXAMPLES = settings(max_examples=150, deadline=None)
+EXAMPLES = settings(max_examples=60, deadline=None)
 CODES = sorted(code for code in TABLE if code != "meta")
 VALUES = st.one_of(
     st.integers(-2000, 2000).map(str),
@@ -86,7 +86,12 @@ def test_any_line_is_cut_or_refused(text):
 
 
 @EXAMPLES
-@given(st.text(alphabet=st.characters(blacklist_characters='*";{}\r\n'), max_size=60))
+@given(
+    st.text(
+        alphabet=st.characters(blacklist_categories=["Cs"], blacklist_characters='*";{}\r\n'),
+        max_size=60,
+    )
+)
 def test_any_checksummed_line_comes_through(text):
     numbered = f"N7 {text}"
     data = numbered.encode("utf-8", "surrogateescape")

@@ -76,6 +76,10 @@ BYTES = {
         "M24",
         "Error: M24: Cannot print, because no file is selected!\nok\n",
     ),
+    "M0 without a print": (
+        "M0",
+        "Error: M0: Pause the print before attempting to cancel it\nok\n",
+    ),
     "M27 without a print": ("M27", "Not SD printing.\nok\n"),
     "M226 from USB": (
         "M226",

@@ -75,6 +75,15 @@ def test_thumbnails_of_m36_came_with_34(bench, firmware):
     assert ('"firstLayerHeight"' in reply) is (firmware == "3.3")
 
 
+@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.1", "3.6"])
+def test_m38_was_compiled_out_in_35(bench, firmware):
+    reply = bench(firmware=firmware).send("M38 square.gcode")
+    if firmware in ("3.3", "3.4"):
+        assert len(reply) == len("\nok\n") + 40
+    else:
+        assert reply == "Warning: M38: Command is not supported\nok\n"
+
+
 SYNTAX = {
     "3.3": "Error: M409: expected a string expression\nok\n",
     "3.4": "Error: M409: expected a string expression\nok\n",
