@@ -4,7 +4,7 @@ import copy
 
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from octoprint_rrfmodel.rrf.follower import Follower
 from octoprint_rrfmodel.rrf.line import NO_BUFFERS, find_reply
@@ -88,13 +88,17 @@ class BoardOnABadLine(RuleBasedStateMachine):
             self.follower.not_supported()
         return text
 
+    def time_goes_on(self, seconds=1):
+        self.board.model = copy.deepcopy(self.board.model)
+        self.board.model["state"]["upTime"] += seconds
+
     @rule(times=st.integers(1, 12))
     def answer(self, times):
         for _ in range(times):
             text = self.ask()
             if text is not None:
                 self.take(find_reply(text).reply)
-            self.board.model["state"]["upTime"] += 1
+            self.time_goes_on()
 
     @rule(key=FREE_KEYS, value=VALUES)
     def change_anything(self, key, value):
@@ -168,10 +172,16 @@ class BoardOnABadLine(RuleBasedStateMachine):
         if "status" not in text or "M409" in str(self.follower.protocol):
             self.take(text)
 
+    @precondition(lambda self: self.board.model["state"]["upTime"] >= 1000)
     @rule()
     def reset(self):
+        """Not soon after another one: a time that didn't fall can't show it."""
         self.late = None
         self.board.reset()
+
+    @rule()
+    def hours_go_by(self):
+        self.time_goes_on(1000)
 
     @rule(key=st.sampled_from(["", "move", "tools", "nothing"]))
     def refetch(self, key):
