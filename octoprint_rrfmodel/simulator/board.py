@@ -44,9 +44,10 @@ class Board(Core):
         clock: Callable[[], float] = time.monotonic,
     ):
         super().__init__(machine, firmware, model)
-        self.speed = speed
+        self._speed = speed
         self._clock = clock
         self._started_at = clock()
+        self._started_now = 0.0
         self.log: list[Received] = []
         for text in faults:
             self.inject(text)
@@ -63,6 +64,18 @@ class Board(Core):
         with self.lock:
             self.refresh()
             return self.data
+
+    @property
+    def speed(self) -> float:
+        """Simulated seconds in a second of the clock; may be changed at any time."""
+        return self._speed
+
+    @speed.setter
+    def speed(self, value: float) -> None:
+        with self.lock:
+            self.advance()
+            self._started_at, self._started_now = self._clock(), self.now
+            self._speed = value
 
     @property
     def has_room(self) -> bool:
@@ -90,7 +103,8 @@ class Board(Core):
     def advance(self) -> None:
         """Let simulated time go on to the clock."""
         with self.lock:
-            target = (self._clock() - self._started_at) * self.speed
+            passed = self._clock() - self._started_at
+            target = self._started_now + passed * self._speed
             if self.now >= target:
                 self._pump()
             while self.now < target:

@@ -189,7 +189,7 @@ DECIMALS: Mapping[str, int] = {
 }
 
 
-def _tree(table: Mapping[str, int]) -> dict[str, Any]:
+def tree_of(table: Mapping[str, int]) -> dict[str, Any]:
     """Return the table as nested dictionaries; the elements of an array are below ``[]``."""
     tree: dict[str, Any] = {}
     for path, decimals in table.items():
@@ -221,4 +221,4 @@ def decimals_of(release: tuple[int, ...]) -> dict[str, Any]:
     for before, other in EARLIER:
         if release < before:
             table.update(other)
-    return _tree(table)
+    return tree_of(table)

@@ -77,3 +77,12 @@ def captures():
     if not folder.is_dir():
         pytest.skip(f"no captures: {folder} isn't there, set RRF_SHARED")
     return folder
+
+
+@pytest.fixture
+def golden():
+    """Answers of the firmware's own code on a synthetic tree."""
+    path = SHARED / "golden" / "m409-small.json"
+    if not path.is_file():
+        pytest.skip(f"no golden answers: {path} isn't there, set RRF_SHARED")
+    return json.loads(path.read_text(encoding="utf-8"))

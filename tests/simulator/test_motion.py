@@ -321,3 +321,6 @@ def test_speed_makes_time_go_faster(bench):
     board = bench(speed=60)
     board.wait(1)
     assert board.ask("state.upTime") == 60
+    board.board.speed = 1
+    board.wait(5)
+    assert board.ask("state.upTime") == 65
