@@ -71,7 +71,7 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
                 continue
             change: Any = True
         elif kind is not type(before):
-            _measure(value, levels)
+            _measure(value, levels - 1)
             change = True
         else:
             merge: Any = _merged_object if kind is dict else _merged_list
@@ -107,7 +107,7 @@ def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Mer
                 continue
             change: Any = True
         elif kind is not type(before):
-            _measure(value, levels)
+            _measure(value, levels - 1)
             change = True
         else:
             merge: Any = _merged_object if kind is dict else _merged_list
