@@ -6,7 +6,7 @@ import re
 from typing import Any, Union
 
 from .m409 import AXES_SHOWN
-from .reply import MalformedReply, ModelReply
+from .reply import ModelReply
 from .request import KEY_FLAGS, ModelRequest
 
 AXES = "move.axes"
@@ -23,7 +23,7 @@ class Fetch:
     Arrays come in pages (``next``, asked for by ``a<n>``). ``move.axes`` is cut to nine elements
     without a word where neither f nor a is asked (3.5 Move.cpp:69), so a list of nine is asked
     for again by itself. Where a reply doesn't fit the board's buffers, ``split`` goes on with
-    the members one by one, and where not even their outline fits, with the elements of an array.
+    the members one by one.
     """
 
     def __init__(self, key: str, flags: str = KEY_FLAGS) -> None:
@@ -31,7 +31,6 @@ class Fetch:
         self._flags = flags
         self._paths = [key]
         self._outline = False
-        self._counting = False
         self._items: list[Any] = []
         self._parts: dict[str, Any] = {}
 
@@ -39,8 +38,6 @@ class Fetch:
     def request(self) -> ModelRequest:
         """What to ask now."""
         path, flags = self._paths[0], self._flags
-        if self._counting:
-            return ModelRequest(f"#{path}", flags)
         if self._outline:
             # depth counts objects from the root, so this shows the members and nothing below
             flags = flags.replace("d99", f"d{path.count('.') + 2}")
@@ -50,8 +47,6 @@ class Fetch:
 
     def take(self, reply: ModelReply) -> bool:
         """Take the answer to ``request``; return whether the value is complete."""
-        if self._counting:
-            return self._take_count(reply.result)
         path, value = self._paths[0], reply.result
         if isinstance(value, list):
             value = self._items + value
@@ -74,26 +69,11 @@ class Fetch:
 
     def split(self) -> bool:
         """Go on by smaller parts; return whether that is possible here."""
-        path = self._paths[0]
-        if self._counting or path == AXES or "f" in self._flags:
+        if self._outline or self._paths[0] == AXES or "f" in self._flags:
             return False
-        if self._outline and path.endswith("]"):
-            return False
-        # the outline of an array is nearly as long as the array, that of an object never
-        self._counting = self._outline
-        self._outline = not self._outline
+        self._outline = True
         self._items = []
         return True
-
-    def _take_count(self, count: Any) -> bool:
-        """Go on with each element of the array."""
-        path = self._paths[0]
-        if not isinstance(count, int):
-            raise MalformedReply(f"no number of elements of {path}: {count!r}")
-        self._counting = False
-        self._parts[path] = [None] * count
-        self._paths[0:1] = [f"{path}[{index}]" for index in range(count)]
-        return not self._paths
 
     @property
     def value(self) -> Any:

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from octoprint_rrfmodel.rrf.fetch import Fetch
-from octoprint_rrfmodel.rrf.reply import MalformedReply, ModelReply, NoBuffers, decode
+from octoprint_rrfmodel.rrf.reply import ModelReply, NoBuffers, decode
 from octoprint_rrfmodel.rrf.request import KEY_FLAGS, LIVE_FLAGS, ModelRequest
 
 from .board import Board, machine
@@ -164,25 +164,11 @@ def test_what_can_not_be_split_says_so(key, flags):
     assert not Fetch(key, flags).split()
 
 
-def test_array_whose_outline_is_too_long_comes_by_its_elements():
-    model = {"inputs": [{"name": f"input {number}", "more": {"x": number}} for number in range(9)]}
-    assert fetched(Board(model, room=120), "inputs") == model["inputs"]
-
-
-def test_outline_is_split_by_elements_and_these_not_at_all():
+def test_outline_can_not_be_split_again():
     fetch = Fetch("heat")
     assert fetch.split()
     assert fetch.request == ModelRequest("heat", "d2vno")
-    assert fetch.split()
-    assert fetch.request == ModelRequest("#heat", KEY_FLAGS)
     assert not fetch.split()
-
-
-def test_object_has_no_number_of_elements():
-    fetch = Fetch("heat")
-    assert fetch.split() and fetch.split()
-    with pytest.raises(MalformedReply, match="elements of heat"):
-        fetch.take(ModelReply("#heat", KEY_FLAGS, None, 0))
 
 
 def test_member_that_is_gone_when_its_turn_comes_is_null():
