@@ -92,10 +92,12 @@ def encoded(value: Any, exponents: bool = False) -> str:
     if isinstance(value, int):
         return str(value)
     if isinstance(value, float):
-        decimals = getattr(value, "decimals", 0)
-        if exponents and value and math.isfinite(value):
-            return exponential(value, max(1, decimals))
-        return number(value, decimals)
+        text = number(value, getattr(value, "decimals", 0))
+        if not exponents or text in ("0", "null"):
+            return text
+        # another form of the same value, with as many digits as it has
+        digits = text.strip("-").replace(".", "").strip("0")
+        return exponential(float(text), max(1, len(digits) - 1))
     if isinstance(value, Mapping):
         members = (quoted(k) + ":" + encoded(v, exponents) for k, v in value.items())
         return "{" + ",".join(members) + "}"

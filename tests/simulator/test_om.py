@@ -56,7 +56,7 @@ def test_string(text, expected):
 
 def test_exponential_numbers():
     text = encoded({"a": 21.5, "b": 0.0, "c": 3}, exponents=True)
-    assert text == '{"a":2.2e+1,"b":0,"c":3}'
+    assert text == '{"a":2.15e+1,"b":0,"c":3}'
 
 
 def text_of(firmware="3.5.3", buffers=40):
