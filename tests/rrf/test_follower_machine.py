@@ -46,7 +46,7 @@ EDITS = st.sampled_from(
 FOREIGN = st.sampled_from(
     [
         model_reply({"x": 1}, key="heat.x", flags=""),
-        model_reply([], key="tools", flags="d99vno", next=7),
+        model_reply([], key="tools", flags="d99", next=7),
         compact({"status": "I", "heaters": [1.0]}),
         "{" + compact({"key": ""})[1:-1],
     ]

@@ -163,7 +163,11 @@ def test_no_number_that_json_lacks_gets_in(value):
 
 
 @settings(max_examples=100)
-@given(st.dictionaries(st.text(min_size=1), st.integers() | st.text(), max_size=4))
+@given(
+    st.dictionaries(
+        st.from_regex("[a-zA-Z_.]+", fullmatch=True), st.integers() | st.text(), max_size=4
+    )
+)
 def test_status_members_come_as_they_are(members):
     fields = {"status": "I", **members}
     if "key" not in fields:
