@@ -123,6 +123,21 @@ def test_live_value_is_seen_with_one_request():
     assert not taken.reset
 
 
+def test_live_value_that_came_with_its_key_and_went_back_is_seen():
+    board = Board()
+    follower = following(board)
+    board.set("heat.heaters[0].max", 300.0)
+    serve(follower, board)
+    known = board.model["heat"]["heaters"][0]["current"]
+    board.model["heat"]["heaters"][0]["current"] = known + 5
+    assert follower.next_request().key == "heat"
+    serve(follower, board)
+    board.model["heat"]["heaters"][0]["current"] = known
+    assert follower.next_request() == LIVE
+    serve(follower, board)
+    assert follower.store.model["heat"]["heaters"][0]["current"] == known
+
+
 def test_message_box_opens_and_closes_with_live_replies():
     board = Board()
     follower = following(board)
