@@ -1,0 +1,125 @@
+"""The sidebar in a real browser, fed by push."""
+
+import pytest
+
+from tests.support.basedir import ADMIN, READER, User
+from tests.support.browser import open_octoprint
+
+from . import helpers
+
+MARKUP = "<img src=x onerror=alert(1)>"
+
+
+@pytest.fixture(scope="module")
+def board(module_board_factory):
+    return module_board_factory(machine="cartesian")
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory, board):
+    made = module_server_factory()
+    helpers.connect(made, board)
+    return made
+
+
+@pytest.fixture
+def sidebar(page, server):
+    open_octoprint(page, server, ADMIN)
+    return shown(page)
+
+
+def shown(page):
+    found = page.locator("[data-test=rrfmodel-sidebar]")
+    found.wait_for(state="visible", timeout=30_000)
+    return found
+
+
+def text_of(sidebar, name):
+    return sidebar.locator(f"[data-test={name}]")
+
+
+def wait_text(locator, wanted, seconds=15):
+    """Return once the element's text has ``wanted`` in it."""
+    from playwright.sync_api import expect
+
+    expect(locator).to_contain_text(wanted, timeout=seconds * 1000)
+
+
+def own(page_errors):
+    """Return the errors but those of OctoPrint's own page for users who aren't administrators."""
+    return [error for error in page_errors if "(FORBIDDEN)" not in error]
+
+
+def test_shows_the_machine(sidebar, page_errors):
+    wait_text(text_of(sidebar, "status"), "Idle")
+    wait_text(text_of(sidebar, "tool"), "none")
+    heaters = text_of(sidebar, "heater")
+    assert heaters.count() == 2
+    assert "Bed" in heaters.nth(1).inner_text()
+    axes = text_of(sidebar, "axis")
+    assert [axis.strip().split()[0] for axis in axes.all_inner_texts()] == ["X", "Y", "Z"]
+    wait_text(text_of(sidebar, "age"), "s ago")
+    assert own(page_errors) == []
+
+
+def test_follows_by_push_alone(page, sidebar, board):
+    wait_text(text_of(sidebar, "status"), "Idle")
+    requests = []
+    page.on("request", lambda request: requests.append(request.url))
+    board.board.execute("M568 P0 S55 R33 A2", channel="http")
+    wait_text(text_of(sidebar, "heater").nth(0), "55")
+    wait_text(text_of(sidebar, "heater").nth(0), "33")
+    wait_text(text_of(sidebar, "heater").nth(0), "active")
+    board.board.execute("G28", channel="http")
+    page.wait_for_selector("[data-test=axis].label-success", timeout=30_000)
+    board.board.execute("T0", channel="http")
+    wait_text(text_of(sidebar, "tool"), "0")
+    assert [url for url in requests if "/plugin/rrfmodel/" in url] == []
+    board.board.execute("M568 P0 A0", channel="http")
+
+
+def test_text_of_the_printer_is_text(page, sidebar, board, page_errors):
+    board.board.execute(f'M563 P0 S"{MARKUP}"', channel="http")
+    wait_text(text_of(sidebar, "heater").nth(0), MARKUP)
+    assert sidebar.locator("img").count() == 0
+    assert own(page_errors) == []
+    board.board.execute('M563 P0 S"E0"', channel="http")
+
+
+def test_says_why_the_data_are_old(sidebar, server, board):
+    wait_text(text_of(sidebar, "status"), "Idle")
+    server.commands("G4 S20")
+    wait_text(text_of(sidebar, "reason"), "long command")
+    server.wait_for(lambda: helpers.status(server)["blocked"] is None, 40, "the command to end")
+    text_of(sidebar, "reason").wait_for(state="detached", timeout=15_000)
+
+
+def test_heater_fault_is_told_and_taken_back(page, sidebar, board, page_errors):
+    wait_text(text_of(sidebar, "status"), "Idle")
+    board.board.inject("heater_fault:1")
+    wait_text(text_of(sidebar, "warning"), "Heater 1 reports a fault")
+    wait_text(page.locator(".ui-pnotify-text").last, "Heater 1 reports a fault")
+    board.board.clear("heater_fault")
+    board.board.execute("M562 P1", channel="http")
+    text_of(sidebar, "warning").wait_for(state="detached", timeout=15_000)
+    assert own(page_errors) == []
+
+
+def test_a_reader_sees_it_too(page, server, page_errors):
+    open_octoprint(page, server, READER)
+    wait_text(text_of(shown(page), "status"), "Idle")
+    assert own(page_errors) == []
+
+
+def test_nobody_without_the_permission_sees_it(page, server):
+    group = {"key": "onlookers", "name": "Onlookers", "permissions": ["STATUS", "SETTINGS_READ"]}
+    added = server.post("/api/access/groups", json={"description": "", "subgroups": [], **group})
+    assert added.status_code == 200, added.text
+    onlooker = User("onlooker", "onlookers", "onlooker-password", "D0" * 16)
+    account = {"name": onlooker.name, "password": onlooker.password, "active": True}
+    added = server.post("/api/access/users", json={"groups": ["onlookers"], **account})
+    assert added.status_code == 200, added.text
+    open_octoprint(page, server, onlooker)
+    helpers.wait_polls(server, 3)
+    assert page.locator("[data-test=rrfmodel-sidebar]").is_hidden()
+    assert "Idle" not in page.locator("#sidebar_plugin_rrfmodel").inner_text()
