@@ -89,7 +89,8 @@ def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tupl
         reading = _object(sensor).get("lastReading")
         if number in used or not isinstance(reading, (int, float)):
             continue
-        if ABSOLUTE_ZERO < reading < BAD_READING:
+        # a host keeps each name that it was ever told, so that one not yet known has to wait
+        if ABSOLUTE_ZERO < reading < BAD_READING and "name" in sensor:
             yield str(sensor.get("name") or f"Sensor {number}"), reading
 
 

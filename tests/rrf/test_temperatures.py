@@ -103,7 +103,8 @@ def test_first_slot_with_a_heater_counts_and_further_ones_are_named(slots, first
 SENSORS = [
     ({"lastReading": 30.5, "name": "MCU"}, {"MCU": (30.5, None)}),
     ({"lastReading": 30.5, "name": ""}, {"Sensor 0": (30.5, None)}),
-    ({"lastReading": 30.5}, {"Sensor 0": (30.5, None)}),
+    # the name isn't live: a host that is told another one first would keep both
+    ({"lastReading": 30.5}, {}),
     ({"lastReading": -273.15, "name": "a"}, {}),
     ({"lastReading": 2000.0, "name": "a"}, {}),
     ({"lastReading": None, "name": "a"}, {}),
@@ -121,8 +122,12 @@ def test_sensor_that_no_heater_uses_is_shown(sensor, shown):
     assert temperatures(heated(analog=[sensor])).others == shown
 
 
+def sensor(reading):
+    return {"lastReading": reading, "name": ""}
+
+
 def test_sensor_of_a_heater_is_not_shown_twice():
-    model = heated(heater(sensor=1), None, analog=[{"lastReading": 1.5}, {"lastReading": 2.5}])
+    model = heated(heater(sensor=1), None, analog=[sensor(1.5), sensor(2.5)])
     assert temperatures(model).others == {"Sensor 0": (1.5, None)}
 
 
