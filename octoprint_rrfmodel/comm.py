@@ -145,11 +145,13 @@ class CommBridge:
     def on_error(self, comm, message, *args, **kwargs):
         """Return True for an error that is no reason to stop: a command was refused, no more.
 
-        A halted board answers the very first command so, before it can say what it is.
+        A halted board answers the very first command so, before it can say what it is. A serious
+        one ends a print; else there is nothing to end, the board has looked after itself, and
+        only a connection shows what is wrong.
         """
         if is_halted(message):
             return not comm.isPrinting()
-        return comm is self._comm and not is_serious(message)
+        return comm is self._comm and not (is_serious(message) and comm.isPrinting())
 
     ##~~ octoprint.comm.protocol.temperatures.received
 
