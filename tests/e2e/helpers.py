@@ -86,6 +86,11 @@ def wait_ready(server, seconds=READY_SECONDS):
     server.wait_for(lambda: status(server)["ready"], seconds, "the model to be ready")
 
 
+def wait_for_rrf(server):
+    """Return once the printer has said what it is."""
+    server.wait_for(lambda: status(server)["is_rrf"], 15, "the firmware to be known")
+
+
 def wait_polls(server, count=3, seconds=30):
     """Return once so many more polls were answered."""
     before = status(server)["counters"]["replies"]
