@@ -39,8 +39,7 @@ class LiveModelHandler(tornado.web.RequestHandler):
 
     async def get(self):
         """Answer in the firmware's envelope; 409 while polls are held back, 504 after 10 s."""
-        key = self.get_query_argument("key", "", strip=False)
-        flags = self.get_query_argument("flags", "", strip=False)
+        key, flags = self._argument("key"), self._argument("flags")
         reason = refusal_to_send(key, flags)
         if reason:
             self._refuse(400, reason)
@@ -65,6 +64,11 @@ class LiveModelHandler(tornado.web.RequestHandler):
             if isinstance(reply.result, list):
                 answer["next"] = reply.next
             self.write(answer)
+
+    def _argument(self, name):
+        """Return an argument as it came; Tornado's own way takes control characters out."""
+        values = self.request.query_arguments.get(name)
+        return values[-1].decode("utf-8", errors="replace") if values else ""
 
     def _refuse(self, status, text):
         self.set_status(status)
