@@ -9,7 +9,7 @@ from octoprint.util.version import is_octoprint_compatible
 
 from .rrf.blocking import BLOCKING
 from .rrf.errors import is_halted, is_serious
-from .rrf.line import find_reply
+from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
 
 POLL_TAG = "trigger:rrfmodel.poll"
 POLL_TYPE = "rrfmodel_poll"
@@ -82,6 +82,9 @@ class CommBridge:
         if comm is not self._comm:
             return line
         if '{"' not in line:
+            if line.startswith(VOLTAGE_WARNING):
+                # OctoPrint sees an ok only where a line starts with it, and waits half a minute
+                line = without_warning(line)
             if line.startswith("ok"):
                 self._awaited = None
             elif self.expects_refusal and ("M409" in line or "M408" in line):

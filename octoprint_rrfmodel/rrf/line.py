@@ -35,6 +35,13 @@ _SCAN: Any = json.JSONDecoder(strict=False).scan_once  # type: ignore[attr-defin
 _LEVELS = {"{": 1, "}": -1}
 
 
+VOLTAGE_WARNING = "Warning: "
+"""How a message begins that has no line end of its own (RepRapFirmware 3.5 Platform.cpp:1396)."""
+
+_GLUED_OK = re.compile(r"Warning: .* event \([0-9.]+V\)(?=ok\b)")
+"""Such a message in front of an acknowledgement."""
+
+
 class Found(NamedTuple):
     """A reply in a line, and what stands around it."""
 
@@ -65,6 +72,15 @@ def find_reply(line: str) -> Found | None:
     else:
         rest = f"{before} {after}" if before and after else before or after
     return Found(text[:end], rest)
+
+
+def without_warning(line: str) -> str:
+    """Return the line from the ``ok`` on where a message is glued before one, else the line.
+
+    ``'Warning: VIN under-voltage event (11.0V)ok T0:21.3 /0.0'`` gives ``'ok T0:21.3 /0.0'``.
+    """
+    found = _GLUED_OK.match(line)
+    return line[found.end() :] if found else line
 
 
 def _start(line: str) -> int:

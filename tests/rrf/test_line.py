@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from octoprint_rrfmodel.rrf.line import find_reply
+from octoprint_rrfmodel.rrf.line import find_reply, without_warning
 from octoprint_rrfmodel.rrf.reply import MalformedReply, ModelReply, StatusReply, decode
 
 from .strategies import ANY_JSON, VALUES, compact, model_reply
@@ -195,3 +195,20 @@ def test_kinds_of_reply_are_told_apart():
     assert isinstance(decode(find_reply(LIVE).reply), ModelReply)
     assert isinstance(decode(find_reply(STATUS).reply), StatusReply)
     assert isinstance(decode(find_reply(CONFIG).reply), StatusReply)
+
+
+GLUED = {
+    "alone": (UNDER_VOLTAGE + "ok\n", "ok\n"),
+    "temperatures": (UNDER_VOLTAGE + "ok T0:21.3 /0.0\n", "ok T0:21.3 /0.0\n"),
+    "twice": (UNDER_VOLTAGE * 2 + "ok\n", "ok\n"),
+    "no ok": (UNDER_VOLTAGE + "\n", UNDER_VOLTAGE + "\n"),
+    "another word": (UNDER_VOLTAGE + "okay\n", UNDER_VOLTAGE + "okay\n"),
+    "another warning": ("Warning: all is ok\n", "Warning: all is ok\n"),
+    "somebody's text": ('say "(1V)ok"\n', 'say "(1V)ok"\n'),
+    "ok": ("ok\n", "ok\n"),
+}
+
+
+@pytest.mark.parametrize(("line", "expected"), GLUED.values(), ids=GLUED)
+def test_ok_behind_a_warning_is_one(line, expected):
+    assert without_warning(line) == expected
