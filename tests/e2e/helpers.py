@@ -23,6 +23,24 @@ SHORT_TIMEOUTS = {
     "maxCommunicationTimeouts": {"idle": 1, "printing": 1, "long": 1},
 }
 
+PATIENT = {
+    "timeout": {
+        "communication": 3,
+        "communicationBusy": 3,
+        "temperature": 1,
+        "temperatureTargetSet": 1,
+    },
+    # a fault that lasts is no reason to give up here
+    "maxCommunicationTimeouts": {"idle": 10, "printing": 10, "long": 10},
+}
+"""Timeouts of OctoPrint that are short and that it gets over."""
+
+RECOVERY_SECONDS = 35
+"""From the end of a fault: OctoPrint's timeout, and the plugin's longest wait after failures."""
+
+WRONG = ("malformed", "out_of_buffers", "timeouts")
+"""Counters of what went wrong."""
+
 NUMBERED = re.compile(r"(?:N\d+ ?)?(?P<command>.*?)(?:\*\d+)?$")
 """A line as it came in on the wire; group ``command`` is the G-code."""
 
@@ -219,3 +237,10 @@ def assert_quiet(board, command, following):
     assert_status_request_in_front(sent, command)
     between = sent[index_of(sent, command) + 1 : index_of(sent, following)]
     assert [found for found in between if is_poll(found)] == []
+
+
+def change(board):
+    """Change something below several keys, so that they have to be fetched again."""
+    board.board.execute(
+        'M563 P0 S"Changed"\nM550 P"Changed"\nM220 S77\nM117 Changed\nset global.retries = 9'
+    )
