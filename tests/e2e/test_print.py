@@ -51,6 +51,14 @@ def answers_in_order(server):
     return found
 
 
+def assert_one_request_at_a_time(server):
+    """Every request of this connection was answered before the next one left."""
+    order = answers_in_order(server)
+    assert len(order) > 40
+    for (kind, what), (following, next_what) in zip(order, order[1:]):
+        assert kind != following, f"two in a row: {what}, {next_what}"
+
+
 def print_through(server, board, lines, name):
     """Print the lines and return what the plugin's counters grew by."""
     server.upload(name, "\n".join(lines) + "\n")
@@ -80,7 +88,7 @@ def print_through(server, board, lines, name):
         pytest.param(None, id="clean"),
         pytest.param("extra_ok", id="extra_ok"),
         # one of so many replies: a stall of two seconds each
-        pytest.param("lost_ok:701", id="lost_ok"),
+        pytest.param("lost_ok:1201", id="lost_ok"),
     ],
 )
 def test_print(server, board_factory, fault):
@@ -103,8 +111,10 @@ def test_print(server, board_factory, fault):
     assert moves() == lines
     sent = helpers.commands(board)[start:]
     assert helpers.polls_without_status(sent) == []
-    assert grown["polls"] >= 5
-    assert grown["replies"] >= 5
+    # an ok too many makes OctoPrint fill the line's buffers, and answers come the later
+    assert grown["polls"] >= 3
+    assert grown["replies"] >= 3
+    assert_one_request_at_a_time(server)
     assert grown["timeouts"] == grown["malformed"] == 0
     # nothing went out among the lines but what OctoPrint and the plugin ask
     other = {command for command in sent if not PLUGIN_LINE.match(command)} - set(lines)
@@ -114,16 +124,3 @@ def test_print(server, board_factory, fault):
         board.board.clear(fault.partition(":")[0])
     server.wait_for(lambda: not helpers.status(server)["stale"], 20, "fresh data")
     helpers.wait_equal(server, board, 10)
-
-
-def test_one_request_at_a_time(server, board_factory):
-    """Every request was answered before the next one left; as OctoPrint has logged it."""
-    board = board_factory(speed=2)
-    helpers.connect(server, board)
-    server.commands("G28")
-    helpers.wait_value(server, "move.axes[].homed", [True] * 3, 20)
-    print_through(server, board, distinct_moves(800), "short.gcode")
-    order = answers_in_order(server)
-    assert len(order) > 40
-    for (kind, what), (following, next_what) in zip(order, order[1:]):
-        assert kind != following, f"two in a row: {what}, {next_what}"
