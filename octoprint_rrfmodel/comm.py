@@ -1,17 +1,15 @@
 """OctoPrint's serial hooks: look at a line, hand over, return.
 
-Every method but ``blocked`` and ``follow_tool`` runs on a thread of OctoPrint's that the print
-waits for. None decodes, waits, or raises.
+The hooks run on a thread of OctoPrint's that the print waits for.
+None of them decodes, waits, or raises.
 """
 
-from octoprint.events import Events
-from octoprint.util.version import is_octoprint_compatible
-
-from .rrf.blocking import BLOCKING
+from .rrf.blocking import BLOCKING, SETTLING
 from .rrf.errors import is_halted, is_serious
 from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
 
 POLL_TAG = "trigger:rrfmodel.poll"
+FILE_TAG = "source:file"
 POLL_TYPE = "rrfmodel_poll"
 STATUS_TAG = "trigger:rrfmodel.status"
 
@@ -20,31 +18,42 @@ SWALLOWED = "// rrfmodel"
 
 STATUS_REQUEST = "M105"
 
-SHOWS_TOOL = is_octoprint_compatible(">=2.0.0rc1")
-"""Whether OctoPrint shows a current tool, and wants to be told it like a position."""
-
 
 class CommBridge:
     """Knows OctoPrint's connection as far as polling needs to, and takes the replies out.
 
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
     ``poll_sent``, ``status_sent`` and ``identified``; it must only take note and return.
-    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, and
-    whether that is fresh. ``fire(event, payload)`` is OctoPrint's event bus.
+    ``translate(cmd, gcode, tags)`` gives the lines to queue for a command that isn't a file's,
+    ``None`` to leave it as it is. ``reword(line)`` gives a line in words that OctoPrint knows.
+    ``show_target(heater, target)`` shows the target that a translated command sets.
     """
 
-    def __init__(self, notify, temperatures, fire, clock):
+    def __init__(self, notify, translate, reword, show_target, clock):
         self._notify = notify
-        self._temperatures = temperatures
-        self._fire = fire
+        self._translate = translate
+        self._reword = reword
+        self._show_target = show_target
         self._clock = clock
         self._comm = None
         self._is_rrf = False
         self._awaited = None
-        self._tool_command_at = 0.0
+        self.tool_command_at = 0.0
+        """When OctoPrint last sent a command that selects a tool."""
         self._polled = set()
+        self._targets = {}
+        self._surplus = None
+        self.settled_at = 0.0
+        """When the last command that blocks was through: older news of the machine may be wrong."""
+        self.rewritten = 0
+        """Commands of operations that went out otherwise than OctoPrint had them."""
         self.expects_refusal = False
         """Whether to look for the text that says that a polling command isn't known."""
+
+    @property
+    def connection(self):
+        """OctoPrint's connection while a board with RepRapFirmware is at its other end."""
+        return self._comm
 
     @property
     def is_rrf(self):
@@ -57,6 +66,8 @@ class CommBridge:
         self._is_rrf = False
         self._awaited = None
         self._polled = set()
+        self._targets = {}
+        self._surplus = None
         self.expects_refusal = False
 
     ##~~ octoprint.comm.protocol.firmware.info
@@ -85,10 +96,14 @@ class CommBridge:
             if line.startswith(VOLTAGE_WARNING):
                 # OctoPrint sees an ok only where a line starts with it, and waits half a minute
                 line = without_warning(line)
+            if self._surplus is not None:
+                return self._without_surplus(line)
             if line.startswith("ok"):
-                self._awaited = None
+                self._acknowledged()
             elif self.expects_refusal and ("M409" in line or "M408" in line):
                 self._notify("refused", line)
+            else:
+                return self._reword(line)
             return line
         found = find_reply(line)
         if found is None:
@@ -97,8 +112,30 @@ class CommBridge:
         if not found.rest:
             return SWALLOWED
         if found.rest.startswith("ok"):
-            self._awaited = None
+            self._acknowledged()
         return found.rest
+
+    def _acknowledged(self):
+        if self._awaited in SETTLING:
+            self.settled_at = self._clock()
+        self._awaited = None
+
+    def _without_surplus(self, line):
+        """Return a line that follows one of several commands, without an ok too many.
+
+        When a move on such a line fails, the last command on it has been read already and is
+        acknowledged too (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80), in the very next line.
+        """
+        if self._surplus == "possible" and line.startswith("Error:"):
+            self._surplus = "certain"
+        elif self._surplus == "next":
+            self._surplus = None
+            if line.strip() == "ok":
+                return SWALLOWED
+        if line.startswith("ok"):
+            self._surplus = "next" if self._surplus == "certain" else None
+            self._acknowledged()
+        return line
 
     ##~~ octoprint.comm.protocol.gcode.queuing
 
@@ -116,11 +153,27 @@ class CommBridge:
         if gcode is None:
             if not cmd.startswith("T"):
                 return None
-        elif gcode not in BLOCKING:
-            if tags and POLL_TAG in tags and gcode != STATUS_REQUEST:
+        elif tags and FILE_TAG not in tags:
+            if POLL_TAG in tags and gcode != STATUS_REQUEST:
                 return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
+            translated = self._translate(cmd, gcode, tags)
+            if translated is not None:
+                return self._queue(translated, cmd_type, gcode)
+        if gcode is not None and gcode not in BLOCKING:
             return None
         return [(STATUS_REQUEST, None, {STATUS_TAG}), (cmd, cmd_type)]
+
+    def _queue(self, translated, cmd_type, gcode):
+        """Return the lines of an operation in the hook's form."""
+        if not translated.lines:
+            return (None,)
+        self.rewritten += 1
+        if translated.heater:
+            self._targets[translated.lines[-1]] = translated.heater, translated.target
+        queued = [(line, cmd_type) for line in translated.lines]
+        if gcode in BLOCKING:
+            queued.insert(0, (STATUS_REQUEST, None, {STATUS_TAG}))
+        return queued
 
     ##~~ octoprint.comm.protocol.gcode.sending
 
@@ -133,8 +186,12 @@ class CommBridge:
         if gcode is None and cmd.startswith("T"):
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
         self._awaited = gcode
+        if self._surplus != "next":
+            self._surplus = "possible" if gcode == "M120" else None
+        if self._targets and cmd in self._targets:
+            self._show_target(*self._targets.pop(cmd))
         if gcode in ("T", "M109"):
-            self._tool_command_at = self._clock()
+            self.tool_command_at = self._clock()
         elif tags and POLL_TAG in tags:
             if gcode == STATUS_REQUEST:
                 self._notify("status_sent")
@@ -155,35 +212,6 @@ class CommBridge:
         if is_halted(message):
             return not comm.isPrinting()
         return comm is self._comm and not (is_serious(message) and comm.isPrinting())
-
-    ##~~ octoprint.comm.protocol.temperatures.received
-
-    def on_temperatures(self, comm, parsed, *args, **kwargs):
-        """Return the report with the model's tools, bed, chamber and sensors in it."""
-        if comm is not self._comm:
-            return parsed
-        known, is_fresh = self._temperatures()
-        if known is None:
-            return parsed
-        # a report has T for the current tool, and OctoPrint takes that for T0 where there is
-        # none: only the model knows the numbers
-        merged = {name: value for name, value in parsed.items() if not name.startswith("T")}
-        current = comm.getCurrentTool()
-        highest = max([current, *(int(n[1:]) for n in parsed if n[0] == "T" and n[1:].isdigit())])
-        # OctoPrint takes a tool for a sensor if its number is higher than any in the report, and
-        # takes them all for sensors if neither the current one nor T0 is there
-        is_readable = current in known.tools or 0 in known.tools
-        for number, value in known.tools.items():
-            actual, target = value if is_fresh else parsed.get(f"T{number}", (None, None))
-            if is_readable and number <= highest:
-                merged[f"T{number}"] = (actual, target)
-            else:
-                comm.last_temperature.set_tool(number, actual=actual, target=target)
-        if is_fresh:
-            slots = {"B": known.bed, "C": known.chamber}
-            merged.update({name: value for name, value in slots.items() if value})
-            merged.update(known.others)
-        return merged
 
     ##~~ what others ask
 
@@ -216,21 +244,3 @@ class CommBridge:
         """Return the line's rate in bits a second, 0 where it is unknown."""
         rate = self._comm.getConnection()[1] if self._comm is not None else 0
         return rate if isinstance(rate, int) else 0
-
-    def follow_tool(self, number, asked_at):
-        """Tell OctoPrint the current tool, where a macro or another panel changed it.
-
-        ``asked_at`` is when the reply was asked for that says so: one older than OctoPrint's own
-        last tool command says nothing about it. OctoPrint has no way to say "none".
-        """
-        comm = self._comm
-        if comm is None or number < 0 or asked_at <= self._tool_command_at:
-            return
-        old = comm.getCurrentTool()
-        if old == number or comm._toolBeforeHeatup is not None:
-            return
-        comm._toolBeforeChange = old
-        comm._currentTool = number
-        self._fire(Events.TOOL_CHANGE, {"old": old, "new": number})
-        if SHOWS_TOOL:
-            comm._callback.on_comm_position_update({"t": number})

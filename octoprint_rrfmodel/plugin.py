@@ -1,6 +1,7 @@
 """The plugin as OctoPrint sees it: answers its mixins, wires the parts, computes nothing."""
 
 import time
+from functools import partial
 
 import flask
 import octoprint.plugin
@@ -10,10 +11,14 @@ from octoprint.events import Events, eventManager
 
 from .api import ModelApi
 from .comm import POLL_TAG, CommBridge
+from .display import Display
+from .notices import notice_text
+from .operations import OperationTranslator
 from .permissions import permissions
 from .polling import Poller
 from .push import ModelPush
 from .rrf.follower import Follower
+from .rrf.machine import Machine
 from .rrf.temperatures import temperatures
 from .settings import DEFAULTS, VERSION
 from .simulated_port import SimulatedPort
@@ -44,12 +49,23 @@ class RrfModelPlugin(
                 "status_sent": lambda: self._poller.status_sent(),
                 "reply": lambda text: self._poller.reply(text),
                 "refused": lambda line: self._poller.refused(line),
+                "refused_operation": self._on_refused_operation,
             },
             [lambda: self._poller.tick(), lambda: self._push.tick()],
         )
         self._follower = Follower()
+        self._operations = OperationTranslator(
+            self._machine, self._is_translated, partial(self._worker.notify, "refused_operation")
+        )
         self._bridge = CommBridge(
-            self._worker.notify, self._known_temperatures, eventManager().fire, clock
+            self._worker.notify,
+            self._operations.translate,
+            lambda line: line,
+            lambda heater, target: self._display.show_target(heater, target),
+            clock,
+        )
+        self._display = Display(
+            lambda: self._bridge.connection, self._known_temperatures, eventManager().fire
         )
         self._poller = Poller(self._follower, self._bridge, self._send, self._on_reply, clock)
         self._status = PluginStatus(
@@ -103,6 +119,9 @@ class RrfModelPlugin(
             },
             {"type": "settings", "name": gettext("RepRapFirmware"), "custom_bindings": False},
         ]
+
+    def get_template_vars(self):
+        return {"operations": list(DEFAULTS["operations"])}
 
     def is_template_autoescaped(self):
         return True
@@ -172,6 +191,16 @@ class RrfModelPlugin(
             self._identifier, message, permissions=[Permissions.PLUGIN_RRFMODEL_READ]
         )
 
+    def _machine(self):
+        is_current = self._poller.asked_at > self._bridge.settled_at and not self._follower.behind
+        return Machine(self._model(), is_current)
+
+    def _is_translated(self, row):
+        return self._settings.get_boolean(["operations", row])
+
+    def _on_refused_operation(self, code, detail):
+        self._tell_pages({"type": "notice", "code": code, "text": notice_text(code, detail)})
+
     def _known_temperatures(self):
         model = self._model()
         known = temperatures(model) if "heat" in model else None
@@ -183,8 +212,9 @@ class RrfModelPlugin(
             return
         self._push.changed(taken.changes)
         tool = self._model().get("state", {}).get("currentTool")
-        if isinstance(tool, int):
-            self._bridge.follow_tool(tool, asked_at)
+        # a reply asked for before OctoPrint's own last tool command says nothing about it
+        if isinstance(tool, int) and asked_at > self._bridge.tool_command_at:
+            self._display.follow_tool(tool)
 
     def _on_identified(self):
         self._on_disconnected()
@@ -204,7 +234,7 @@ def hooks_of(plugin):
         "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
         "octoprint.comm.protocol.gcode.error": bridge.on_error,
         "octoprint.comm.protocol.firmware.info": plugin.on_firmware_info,
-        "octoprint.comm.protocol.temperatures.received": bridge.on_temperatures,
+        "octoprint.comm.protocol.temperatures.received": plugin._display.on_temperatures,
         "octoprint.comm.transport.serial.factory": plugin._simulated_port.open,
         "octoprint.comm.transport.serial.additional_port_names": plugin._simulated_port.names,
         "octoprint.server.http.routes": plugin.routes,

@@ -12,7 +12,7 @@ from .rrf.follower import answers
 from .rrf.line import NO_BUFFERS
 from .rrf.pace import Pace
 from .rrf.reply import MalformedReply, ModelReply, decode
-from .rrf.request import ModelRequest
+from .rrf.request import LIVE_FLAGS, ModelRequest
 
 ANSWER_SECONDS = 10.0
 """Time that a poll has from being sent; RRF 3.5 waits for buffers before it answers."""
@@ -71,6 +71,8 @@ class Poller:
         self._queries = collections.deque()
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
+        self.asked_at = 0.0
+        """When the last live reply was asked for."""
         self.polls = 0
         self.bytes = 0
 
@@ -180,6 +182,8 @@ class Poller:
         else:
             self._pace.answered(len(text), self._clock() - asked_at)
             self.applied_at = self._clock()
+            if not isinstance(poll.request, ModelRequest) or poll.request.flags == LIVE_FLAGS:
+                self.asked_at = asked_at
             self._changed(taken, asked_at)
         self._finish_if_over()
 

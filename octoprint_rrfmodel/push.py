@@ -6,6 +6,7 @@ Messages of the plugin ``rrfmodel``, for those who have READ:
   of the object model that changed since the last message, each whole.
 * ``{"type": "status", "status": {...}}``: nothing of the model changed, but the state did.
 * ``{"type": "reset", "status": {...}}``: what was known holds no longer, more will follow.
+* ``{"type": "notice", "code", "text"}``, at once: something that was asked for didn't happen.
 """
 
 SHORTEST_SECONDS = 0.5

@@ -1,8 +1,12 @@
 """The plugin's settings and what they are when nobody has changed them."""
 
+from .rrf.operations import ROWS
+
 VERSION = 1
 
 DEFAULTS = {
+    # rows of the table of operations that are switched off go out as OctoPrint has them
+    "operations": {row.name: True for row in ROWS},
     # keep the plugin's polls out of the terminal tab
     "hide_polls": True,
     "simulator": {

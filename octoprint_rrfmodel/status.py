@@ -41,7 +41,7 @@ class PluginStatus:
             "counters": {
                 "polls": poller.polls,
                 "bytes": poller.bytes,
-                "rewritten": 0,
+                "rewritten": self._bridge.rewritten,
                 **follower.counters,
             },
             "warnings": self._warnings(),

@@ -32,3 +32,6 @@ BLOCKING = frozenset(
         "M703",
     )
 )
+
+SETTLING = BLOCKING | {"M18", "M84", "G92", "M120", "M564"}
+"""Commands after which what was known of axes, heaters and tools may be wrong."""

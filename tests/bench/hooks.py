@@ -31,7 +31,13 @@ class _Comm:
 def measure() -> None:
     """Print the cost of both hooks over an empty one, in microseconds a line."""
     comm = _Comm()
-    bridge = CommBridge(lambda *note: None, lambda: (None, False), lambda *event: None, lambda: 0.0)
+    bridge = CommBridge(
+        notify=lambda *note: None,
+        translate=lambda *command: None,
+        reword=lambda line: line,
+        show_target=lambda *target: None,
+        clock=lambda: 0.0,
+    )
     bridge.on_firmware_info(comm, "RepRapFirmware for Duet 2 WiFi/Ethernet", {})
     received = list(itertools.islice(itertools.cycle(RECEIVED), CALLS))
     ours, empty = side_by_side(

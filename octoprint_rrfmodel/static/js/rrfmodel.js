@@ -254,6 +254,16 @@ $(function () {
             self.told = told;
         };
 
+        self.notify = function (text) {
+            new PNotify({
+                title: gettext("RepRapFirmware"),
+                text: text,
+                title_escape: true,
+                text_escape: true,
+                type: "notice"
+            });
+        };
+
         self.onStartupComplete = self.requestData;
         self.onServerReconnect = self.requestData;
         self.onUserPermissionsChanged =
@@ -266,6 +276,10 @@ $(function () {
 
         self.onDataUpdaterPluginMessage = function (plugin, message) {
             if (plugin !== "rrfmodel" || !self.mayRead()) return;
+            if (message.type === "notice") {
+                self.notify(message.text);
+                return;
+            }
             if (message.type === "reset") self.model({});
             if (message.type === "model") {
                 self.model(Object.assign({}, self.model(), message.changed));

@@ -1,0 +1,86 @@
+"""OctoPrint told what it can't find out by itself: temperatures, targets, the current tool.
+
+Part of this touches attributes of OctoPrint's connection that have no public form; both versions
+have them under the same names.
+"""
+
+from octoprint.events import Events
+from octoprint.util.version import is_octoprint_compatible
+
+SHOWS_TOOL = is_octoprint_compatible(">=2.0.0rc1")
+"""Whether OctoPrint shows a current tool, and wants to be told it like a position."""
+
+
+class Display:
+    """Keeps OctoPrint's own view of the printer right.
+
+    ``connection()`` is OctoPrint's connection to a board with RepRapFirmware, else ``None``.
+    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, and
+    whether that is fresh. ``fire(event, payload)`` is OctoPrint's event bus.
+    """
+
+    def __init__(self, connection, temperatures, fire):
+        self._connection = connection
+        self._temperatures = temperatures
+        self._fire = fire
+
+    ##~~ octoprint.comm.protocol.temperatures.received
+
+    def on_temperatures(self, comm, parsed, *args, **kwargs):
+        """Return the report with the model's tools, bed, chamber and sensors in it."""
+        if comm is not self._connection():
+            return parsed
+        known, is_fresh = self._temperatures()
+        if known is None:
+            return parsed
+        # a report has T for the current tool, and OctoPrint takes that for T0 where there is
+        # none: only the model knows the numbers
+        merged = {name: value for name, value in parsed.items() if not name.startswith("T")}
+        current = comm.getCurrentTool()
+        highest = max([current, *(int(n[1:]) for n in parsed if n[0] == "T" and n[1:].isdigit())])
+        # OctoPrint takes a tool for a sensor if its number is higher than any in the report, and
+        # takes them all for sensors if neither the current one nor T0 is there
+        is_readable = current in known.tools or 0 in known.tools
+        for number, value in known.tools.items():
+            actual, target = value if is_fresh else parsed.get(f"T{number}", (None, None))
+            if is_readable and number <= highest:
+                merged[f"T{number}"] = (actual, target)
+            else:
+                comm.last_temperature.set_tool(number, actual=actual, target=target)
+        if is_fresh:
+            slots = {"B": known.bed, "C": known.chamber}
+            merged.update({name: value for name, value in slots.items() if value})
+            merged.update(known.others)
+        return merged
+
+    ##~~ what happens without OctoPrint's knowing
+
+    def show_target(self, heater, target):
+        """Show the target of ``tool<n>``, ``bed`` or ``chamber`` that a command is about to set."""
+        comm = self._connection()
+        if comm is None:
+            return
+        known = comm.last_temperature
+        if heater == "bed":
+            known.set_bed(target=target)
+        elif heater == "chamber":
+            known.set_chamber(target=target)
+        else:
+            known.set_tool(int(heater[len("tool") :]), target=target)
+        comm._callback.on_comm_temperature_update(
+            known.tools, known.bed, known.chamber, known.custom
+        )
+
+    def follow_tool(self, number):
+        """Show the current tool where a macro or another panel changed it; there is no "none"."""
+        comm = self._connection()
+        if comm is None or number < 0:
+            return
+        old = comm.getCurrentTool()
+        if old == number or comm._toolBeforeHeatup is not None:
+            return
+        comm._toolBeforeChange = old
+        comm._currentTool = number
+        self._fire(Events.TOOL_CHANGE, {"old": old, "new": number})
+        if SHOWS_TOOL:
+            comm._callback.on_comm_position_update({"t": number})

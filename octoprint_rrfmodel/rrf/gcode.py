@@ -1,0 +1,49 @@
+"""G-code lines as the firmware reads them: words, quoting, numbers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_WORD = re.compile(r"([A-Za-z])\s*(-?[0-9]*\.?[0-9]+)?")
+"""One word of a plain command: group 1 the letter, group 2 the number, if it has one."""
+
+
+def words(line: str) -> dict[str, float | None]:
+    """Return the words of a line without quotes, by upper-case letter.
+
+    >>> words("G0 X10 Y-5.5 F200")
+    {'G': 0.0, 'X': 10.0, 'Y': -5.5, 'F': 200.0}
+    """
+    return {
+        letter.upper(): float(number) if number else None for letter, number in _WORD.findall(line)
+    }
+
+
+def number(value: float) -> str:
+    """Return a number as shortly as it can be read back, never with an exponent.
+
+    >>> number(10.0), number(0.02), number(-0.0)
+    ('10', '0.02', '0')
+    """
+    text = f"{value:.5f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def numbers(values: Sequence[float]) -> str:
+    """Return one number, or several with ``:`` between, as multi-heater tools take them."""
+    return ":".join(map(number, values))
+
+
+def quoted(text: str) -> str:
+    """Return a text as the firmware wants its strings: in quotes, quotes and ``'`` doubled.
+
+    An apostrophe before a letter would make it lower case (3.5 StringParser.cpp).
+    """
+    doubled = text.replace('"', '""').replace("'", "''")
+    return f'"{doubled}"'
+
+
+def axis_word(letter: str, value: str = "") -> str:
+    """Return an axis letter with a value; lower-case axes are written ``'a``."""
+    return f"'{letter}{value}" if letter.islower() else f"{letter}{value}"

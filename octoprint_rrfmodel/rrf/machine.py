@@ -1,0 +1,103 @@
+"""View: the questions about a machine that commands depend on, answered from the model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+_VERSION = re.compile(r"(\d+)\.(\d+)(?:\.(\d+))?")
+"""The numbers of a firmware version: major, minor and patch level."""
+
+M568_SETS_TOOLS = (3, 3)
+"""From here on M568 sets a tool's temperatures and state; before, G10 and M104 do."""
+
+HAS_EXPRESSIONS = (3, 0)
+"""From here on a parameter may be an expression in braces."""
+
+
+class Machine:
+    """Answers from one snapshot of the model.
+
+    ``is_current`` says that nothing has happened since that could have homed an axis or heated
+    a tool; otherwise the firmware is left to refuse what it can't do.
+    """
+
+    def __init__(self, model: Mapping[str, Any], is_current: bool = True) -> None:
+        self._model = model
+        self._is_current = is_current
+
+    @property
+    def version(self) -> tuple[int, int, int]:
+        """The firmware's version; ``(0, 0, 0)`` where none is known."""
+        board = _object(next(iter(_array(self._model.get("boards"))), None))
+        found = _VERSION.search(str(board.get("firmwareVersion", "")))
+        return tuple(int(part or 0) for part in found.groups()) if found else (0, 0, 0)  # type: ignore[return-value]
+
+    @property
+    def tools(self) -> dict[int, Mapping[str, Any]]:
+        """The tools by their numbers."""
+        tools = {}
+        for tool in _array(self._model.get("tools")):
+            number = _object(tool).get("number")
+            if isinstance(number, int):
+                tools[number] = tool
+        return tools
+
+    @property
+    def knows_tools(self) -> bool:
+        """Whether the model says anything about tools."""
+        return isinstance(self._model.get("tools"), list)
+
+    @property
+    def current_tool(self) -> Mapping[str, Any] | None:
+        """The tool that is selected."""
+        number = _object(self._model.get("state")).get("currentTool")
+        return self.tools.get(number) if isinstance(number, int) else None
+
+    @property
+    def default_tool(self) -> Mapping[str, Any] | None:
+        """The tool that M104 without T means: the current one, else the lowest numbered."""
+        tools = self.tools
+        return self.current_tool or (tools[min(tools)] if tools else None)
+
+    def slot(self, kind: str) -> int | None:
+        """Return the first slot of ``bedHeaters`` or ``chamberHeaters`` that has a heater."""
+        heat = _object(self._model.get("heat"))
+        for slot, heater in enumerate(_array(heat.get(kind))):
+            if isinstance(heater, int) and heater >= 0:
+                return slot
+        return None
+
+    def unhomed(self, letters: str) -> str:
+        """Return those of the axes that may not be moved because they aren't homed."""
+        move = _object(self._model.get("move"))
+        # told from 3.4 on; off after M564 H0
+        if not self._is_current or move.get("noMovesBeforeHoming") is not True:
+            return ""
+        homed = {
+            axis.get("letter"): axis.get("homed") for axis in map(_object, _array(move.get("axes")))
+        }
+        return "".join(letter for letter in letters if homed.get(letter) is False)
+
+    def is_cold(self, tool: Mapping[str, Any]) -> bool:
+        """Return whether a heater of the tool is too cold to extrude."""
+        heat = _object(self._model.get("heat"))
+        limit = heat.get("coldExtrudeTemperature")
+        heaters = _array(heat.get("heaters"))
+        if not self._is_current or not isinstance(limit, (int, float)):
+            return False
+        for index in _array(tool.get("heaters")):
+            heater = _object(heaters[index]) if 0 <= index < len(heaters) else {}
+            current = heater.get("current")
+            if isinstance(current, (int, float)) and current < limit:
+                return True
+        return False
+
+
+def _object(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _array(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
