@@ -25,14 +25,16 @@ class CommBridge:
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
     ``poll_sent``, ``status_sent`` and ``identified``; it must only take note and return.
     ``translate(cmd, gcode, tags)`` gives the lines to queue for a command that isn't a file's,
-    ``None`` to leave it as it is. ``reword(line)`` gives a line in words that OctoPrint knows.
+    ``None`` to leave it as it is. ``reword(line)`` gives a line in words that OctoPrint knows,
+    ``fill()`` one in the place of a line that was the plugin's alone.
     ``show_target(heater, target)`` shows the target that a translated command sets.
     """
 
-    def __init__(self, notify, translate, reword, show_target, clock):
+    def __init__(self, notify, translate, reword, fill, show_target, clock):
         self._notify = notify
         self._translate = translate
         self._reword = reword
+        self._fill = fill
         self._show_target = show_target
         self._clock = clock
         self._comm = None
@@ -110,7 +112,7 @@ class CommBridge:
             return line
         self._notify("reply", found.reply)
         if not found.rest:
-            return SWALLOWED
+            return self._fill()
         if found.rest.startswith("ok"):
             self._acknowledged()
         return found.rest

@@ -17,9 +17,13 @@ from .operations import OperationTranslator
 from .permissions import permissions
 from .polling import Poller
 from .push import ModelPush
+from .rrf.card import CardPlan
 from .rrf.follower import Follower
 from .rrf.machine import Machine
 from .rrf.temperatures import temperatures
+from .sdcard import SdCard
+from .sdjob import SdJob
+from .sdupload import UploadRefusal
 from .settings import DEFAULTS, VERSION
 from .simulated_port import SimulatedPort
 from .status import PluginStatus
@@ -59,15 +63,26 @@ class RrfModelPlugin(
         )
         self._bridge = CommBridge(
             self._worker.notify,
-            self._operations.translate,
-            lambda line: line,
+            lambda cmd, gcode, tags: self._card.translate(cmd, gcode, tags),
+            lambda line: self._card.reword(line),
+            lambda: self._card.fill(),
             lambda heater, target: self._display.show_target(heater, target),
             clock,
         )
         self._display = Display(
             lambda: self._bridge.connection, self._known_temperatures, eventManager().fire
         )
-        self._poller = Poller(self._follower, self._bridge, self._send, self._on_reply, clock)
+        self._card = SdCard(
+            CardPlan(),
+            SdJob(self._model, self._is_current, lambda line: self._printer.commands(line), clock),
+            lambda: self._bridge.connection,
+            self._model,
+            self._operations.translate,
+        )
+        self._uploads = UploadRefusal(lambda: self._bridge.is_rrf)
+        self._poller = Poller(
+            self._follower, self._card, self._bridge, self._send, self._on_reply, clock
+        )
         self._status = PluginStatus(
             lambda: self._plugin_version,
             self._bridge,
@@ -191,9 +206,11 @@ class RrfModelPlugin(
             self._identifier, message, permissions=[Permissions.PLUGIN_RRFMODEL_READ]
         )
 
+    def _is_current(self):
+        return self._poller.asked_at > self._bridge.settled_at and not self._follower.behind
+
     def _machine(self):
-        is_current = self._poller.asked_at > self._bridge.settled_at and not self._follower.behind
-        return Machine(self._model(), is_current)
+        return Machine(self._model(), self._is_current())
 
     def _is_translated(self, row):
         return self._settings.get_boolean(["operations", row])
@@ -211,6 +228,7 @@ class RrfModelPlugin(
             self._push.forgotten()
             return
         self._push.changed(taken.changes)
+        self._card.on_news()
         tool = self._model().get("state", {}).get("currentTool")
         # a reply asked for before OctoPrint's own last tool command says nothing about it
         if isinstance(tool, int) and asked_at > self._bridge.tool_command_at:
@@ -218,6 +236,7 @@ class RrfModelPlugin(
 
     def _on_identified(self):
         self._on_disconnected()
+        self._card.identified()
         self._poller.start()
 
     def _on_disconnected(self):
@@ -234,6 +253,8 @@ def hooks_of(plugin):
         "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
         "octoprint.comm.protocol.gcode.error": bridge.on_error,
         "octoprint.comm.protocol.firmware.info": plugin.on_firmware_info,
+        "octoprint.printer.sdcardupload": plugin._uploads.on_upload,
+        "octoprint.server.api.before_request": plugin._uploads.handlers,
         "octoprint.comm.protocol.temperatures.received": plugin._display.on_temperatures,
         "octoprint.comm.transport.serial.factory": plugin._simulated_port.open,
         "octoprint.comm.transport.serial.additional_port_names": plugin._simulated_port.names,

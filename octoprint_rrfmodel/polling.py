@@ -9,9 +9,9 @@ import logging
 import re
 
 from .rrf.follower import answers
-from .rrf.line import NO_BUFFERS
+from .rrf.line import LIST_REPLY, NO_BUFFERS
 from .rrf.pace import Pace
-from .rrf.reply import MalformedReply, ModelReply, decode
+from .rrf.reply import MalformedReply, ModelReply, decode, decode_page
 from .rrf.request import LIVE_FLAGS, ModelRequest
 
 ANSWER_SECONDS = 10.0
@@ -26,6 +26,9 @@ MOST_QUERIES = 4
 NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
 """How firmware of various age says that it hasn't got a command."""
 
+CARD_POLLS_BETWEEN_LIVE = 2
+"""Requests about the card in a row before the model has its turn."""
+
 STALE_POLLS = 3
 """Poll intervals without news after which the model is stale."""
 
@@ -37,9 +40,10 @@ class TooManyQueries(Exception):
 class _Poll:
     """The request that is on its way."""
 
-    def __init__(self, request, query, queued_at):
+    def __init__(self, request, query, is_card, queued_at):
         self.request = request
         self.query = query
+        self.is_card = is_card
         self.queued_at = queued_at
         self.sent_at = None
         self.status_sent = False
@@ -54,11 +58,14 @@ class Poller:
     """Sends polls while nothing is in the way, and feeds what comes to the follower.
 
     ``send(line)`` gives a G-code line to OctoPrint's queue. ``bridge`` is asked whether the line
-    is free. ``changed(Taken, asked_at)`` is told of each reply that was applied.
+    is free. ``changed(Taken, asked_at)`` is told of each reply that was applied. ``card`` is
+    asked what to ask about the card, and fed (``sdcard.SdCard``).
     """
 
-    def __init__(self, follower, bridge, send, changed, clock):
+    def __init__(self, follower, card, bridge, send, changed, clock):
         self._follower = follower
+        self._card = card
+        self._card_polls = 0
         self._bridge = bridge
         self._send = send
         self._changed = changed
@@ -149,7 +156,8 @@ class Poller:
     def refused(self, line):
         """Note a line that says that a command isn't known, if it is about ours."""
         poll = self._poll
-        if poll is None or poll.query is not None or not NOT_KNOWN.search(line.lower()):
+        is_model = poll is not None and poll.query is None and not poll.is_card
+        if not is_model or not NOT_KNOWN.search(line.lower()):
             return
         if poll.request.line.split()[0] in line:
             self._follower.not_supported()
@@ -160,6 +168,11 @@ class Poller:
         self.bytes += len(text)
         poll = self._poll
         if poll is None or poll.sent_at is None or poll.answered:
+            return
+        if poll.is_card != text.startswith(LIST_REPLY) and text != NO_BUFFERS:
+            return
+        if poll.is_card:
+            self._take_page(poll, text)
             return
         if poll.query is not None:
             self._answer_query(poll, text)
@@ -190,16 +203,27 @@ class Poller:
     ##~~ the poll slot
 
     def _start_poll(self, now):
-        query = None
-        request = None
+        query = request = None
+        is_card = False
         while self._queries and request is None:
             request, query = self._queries.popleft()
             if not query.set_running_or_notify_cancel():
                 request = query = None
-        if request is None:
-            request = self._follower.next_request()
-        self._poll = _Poll(request, query, now)
+        if request is None and self._is_cards_turn():
+            request = self._card.next_request()
+            is_card = request is not None
+        self._card_polls = self._card_polls + 1 if is_card else 0
+        request = request or self._follower.next_request()
+        self._poll = _Poll(request, query, is_card, now)
         self._send(request.line)
+
+    def _is_cards_turn(self):
+        """Return whether the card may be asked about: never beside a print that is streamed."""
+        return (
+            self._follower.ready
+            and self._card_polls < CARD_POLLS_BETWEEN_LIVE
+            and not self._bridge.is_streaming_a_print()
+        )
 
     def _watch(self, now):
         """Give up a poll whose answer, or whose leaving, takes too long."""
@@ -215,7 +239,9 @@ class Poller:
             self._time_out(poll)
 
     def _time_out(self, poll):
-        if poll.query is None:
+        if poll.is_card:
+            self._card.failed()
+        elif poll.query is None:
             self._follower.timed_out()
         else:
             self._fail(poll.query, "the printer did not answer in time")
@@ -231,10 +257,27 @@ class Poller:
         self._poll = None
         wait = self._pace.wait(
             self._bridge.is_streaming_a_print(),
-            behind=self._follower.behind,
+            behind=self._follower.behind or self._card.behind,
             begins=not self._follower.ready,
         )
         self._next_at = self._clock() + wait
+
+    def _take_page(self, poll, text):
+        """Take a page of a folder's list."""
+        try:
+            page = None if text == NO_BUFFERS else decode_page(text)
+        except MalformedReply as error:
+            self._logger.debug("List not understood, asking again: %s", error)
+            page = None
+        if page is None:
+            self._card.failed()
+            self._pace.failed()
+        elif not self._card.take(page):
+            return
+        else:
+            self._pace.answered(len(text), self._clock() - poll.sent_at)
+        poll.answered = True
+        self._finish_if_over()
 
     def _answer_query(self, poll, text):
         try:

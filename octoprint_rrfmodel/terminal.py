@@ -13,7 +13,7 @@ SENT = re.compile(r"(?:Send: |>>> )(?:N\d+ )?(?P<command>.*?)(?:\*\d+)?$")
 RECEIVED = re.compile(r"(?:Recv: |<<< ?)(?P<text>.*)$")
 """A line that came from the printer; group ``text`` is the line."""
 
-OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins)":')
+OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins|dir)":')
 
 PATIENCE = 20
 """Lines after which a poll whose reply was not seen is forgotten."""

@@ -14,9 +14,10 @@ MODEL_REPLY = '{"key":'
 NO_BUFFERS = '{"err":-1}'
 STATUS_REPLY = '{"status":'
 CONFIG_REPLY = '{"axisMins":'
+LIST_REPLY = '{"dir":'
 
-REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY)
-"""How M409, M408 S0..S4, a reply short of buffers, and M408 S5 begin."""
+REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY, LIST_REPLY)
+"""How M409, M408 S0..S4, a reply short of buffers, M408 S5, and M20 S2 and S3 begin."""
 
 _NOT_INSIDE = r'(?<!":)(?<!":\[)(?<!\},)'
 """Not behind what an object stands behind in another JSON: M36 and M20 answer with some, too."""

@@ -1,10 +1,11 @@
-"""A reply's text turned into values: ``M409``, ``M408`` and the one that means "no buffers"."""
+"""A reply's text turned into values: ``M409``, ``M408``, ``M20`` and "no buffers"."""
 
 from __future__ import annotations
 
 import json
 import math
 import re
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from .line import MODEL_REPLY, NO_BUFFERS
@@ -33,6 +34,28 @@ class StatusReply(NamedTuple):
 
 class NoBuffers(NamedTuple):
     """The board had no room for the answer; it names no key (3.5 GCodes2.cpp:3154)."""
+
+
+class FolderEntry(NamedTuple):
+    """A file or a folder, as ``M20 S3`` tells it."""
+
+    name: str
+    is_folder: bool
+    size: int
+    date: str
+    """``2024-11-04T20:21:00`` by the board's clock; empty where it tells none."""
+
+
+class FolderPage(NamedTuple):
+    """An answer to ``M20 S3``."""
+
+    folder: str
+    first: int
+    entries: tuple[FolderEntry, ...]
+    next: int
+    """Entry to go on with, 0 where the folder is complete."""
+    error: int
+    """0, or why there are no entries: 1 no card, 2 no such folder (3.5 RepRap.cpp:1865)."""
 
 
 _LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"?|-?\b(?:nan|inf)\b')
@@ -79,6 +102,36 @@ def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
     ):
         raise MalformedReply(f"no envelope of an M409 reply: {text[:80]!r}")
     return ModelReply(key, flags, members["result"], start)
+
+
+def decode_page(text: str) -> FolderPage:
+    """Return what an answer to ``M20 S3`` says; raise ``MalformedReply`` if it can't be read."""
+    members = _members(text)
+    folder, files = members.get("dir"), members.get("files", [])
+    first, following = members.get("first", 0), members.get("next", 0)
+    error = members.get("err", 0)
+    if (
+        type(folder) is not str
+        or type(files) is not list
+        or not all(isinstance(file, dict) for file in files)
+        or any(type(value) is not int for value in (first, following, error))
+    ):
+        raise MalformedReply(f"no list of a folder: {text[:80]!r}")
+    return FolderPage(folder, first, tuple(_entries(files)), following, error)
+
+
+def _entries(files: list[dict[str, Any]]) -> Iterator[FolderEntry]:
+    for file in files:
+        name = file.get("name")
+        if not isinstance(name, str):
+            continue
+        size, date = file.get("size"), file.get("date")
+        yield FolderEntry(
+            name,
+            file.get("type") == "d",
+            size if type(size) is int else 0,
+            date if isinstance(date, str) else "",
+        )
 
 
 def _members(text: str) -> dict[str, Any]:

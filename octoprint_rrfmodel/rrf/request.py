@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, Union
 
+from .gcode import quoted
+
 LIVE_FLAGS = "d99fin"
 """Frequently changing values; ``i`` brings the message box from 3.4 on, ``n`` what is null now."""
 
@@ -27,7 +29,7 @@ class ModelRequest(NamedTuple):
     @property
     def line(self) -> str:
         """The G-code, with the firmware's way of quoting: ``""`` for a quote, ``''`` for ``'``."""
-        return f'M409 K"{_quoted(self.key)}" F"{_quoted(self.flags)}"'
+        return f"M409 K{quoted(self.key)} F{quoted(self.flags)}"
 
 
 class StatusRequest(NamedTuple):
@@ -41,8 +43,16 @@ class StatusRequest(NamedTuple):
         return f"M408 S{self.form}"
 
 
+class ListRequest(NamedTuple):
+    """One ``M20 S3``: a folder's entries from number ``first`` on."""
+
+    folder: str
+    first: int = 0
+
+    @property
+    def line(self) -> str:
+        """The G-code."""
+        return f"M20 S3 P{quoted(self.folder)} R{self.first}"
+
+
 Request = Union[ModelRequest, StatusRequest]
-
-
-def _quoted(text: str) -> str:
-    return text.replace('"', '""').replace("'", "''")

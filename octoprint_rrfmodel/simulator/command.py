@@ -32,6 +32,9 @@ _PARAMETER = re.compile(
 )
 """One parameter; groups: letter with its apostrophe, value as written."""
 
+_QUOTED = re.compile(r'"(?:[^"]|"")*"')
+"""A text in quotes, with quotes doubled inside."""
+
 _APOSTROPHE = re.compile(r"'(.)")
 
 _MOVE = re.compile(r"([A-Z])\s*(-?\d+\.?\d*|-?\.\d+)")
@@ -164,8 +167,8 @@ class Command:
         """Return the argument of M23, M117 and the like, with or without quotes."""
         text = self.text.strip()
         if text.startswith('"'):
-            end = text.find('"', 1)
-            return text[1 : end if end > 0 else None]
+            found = _QUOTED.match(text)
+            return self.unquoted(found[0]) if found else text[1:]
         return text
 
     @staticmethod

@@ -7,6 +7,9 @@ import statistics
 from typing import Any
 
 from octoprint_rrfmodel.comm import CommBridge
+from octoprint_rrfmodel.rrf.card import CardPlan
+from octoprint_rrfmodel.sdcard import SdCard
+from octoprint_rrfmodel.sdjob import SdJob
 from tests.bench.timing import side_by_side, verdict
 
 CALLS = 2000
@@ -31,10 +34,18 @@ class _Comm:
 def measure() -> None:
     """Print the cost of both hooks over an empty one, in microseconds a line."""
     comm = _Comm()
+    card = SdCard(
+        plan=CardPlan(),
+        job=SdJob(dict, lambda: True, lambda line: None, lambda: 0.0),
+        connection=lambda: comm,
+        model=dict,
+        translate=lambda *command: None,
+    )
     bridge = CommBridge(
         notify=lambda *note: None,
-        translate=lambda *command: None,
-        reword=lambda line: line,
+        translate=card.translate,
+        reword=card.reword,
+        fill=card.fill,
         show_target=lambda *target: None,
         clock=lambda: 0.0,
     )

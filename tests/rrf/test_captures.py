@@ -10,7 +10,13 @@ from octoprint_rrfmodel.rrf.m408 import M408Model
 from octoprint_rrfmodel.rrf.m409 import AXES_SHOWN
 from octoprint_rrfmodel.rrf.merge import patched, paths, replaced
 from octoprint_rrfmodel.rrf.poll408 import StatusPlan
-from octoprint_rrfmodel.rrf.reply import MalformedReply, ModelReply, StatusReply, decode
+from octoprint_rrfmodel.rrf.reply import (
+    MalformedReply,
+    ModelReply,
+    StatusReply,
+    decode,
+    decode_page,
+)
 from octoprint_rrfmodel.rrf.store import ModelStore
 from octoprint_rrfmodel.rrf.temperatures import temperatures
 
@@ -26,6 +32,7 @@ PATCH = "a patch of a whole model"
 SESSION = "a whole model and patches"
 CONSOLE = "a console, line by line"
 OTHER = "an answer to something else"
+FOLDER = "a page of a folder's list"
 CORRUPT = "a spoilt answer"
 
 FILES = {
@@ -58,7 +65,7 @@ FILES = {
     "om_dsf130_default.json": FULL,
     "rrconfig_2051_duetwifi_delta.json": M408,
     "rrfileinfo_31_duet2.json": OTHER,
-    "rrfilelist_30_duet2_macros.json": OTHER,
+    "rrfilelist_30_duet2_macros.json": FOLDER,
     "rrstatus1_2051_duetwifi_delta.json": M408,
     "rrstatus1_30_duet2_idle.json": M408,
     "rrstatus1_30_duet2_messagebox.json": M408,
@@ -251,6 +258,16 @@ def test_forms_of_one_board_make_one_model(captures):
     assert [axis["speed"] for axis in axes] == [9000.0, 9000.0, 3600.0]
     assert store.model["tools"][0]["name"] == "PrimeExtruder"
     assert [fan["requestedValue"] for fan in store.model["fans"]] == [0.0, 0.3, 0.0]
+
+
+@fed_as(FOLDER)
+def test_recorded_list_is_read(captures, name):
+    line = line_of(captures, name)
+    assert find_reply(line + "\n") == (line, "")
+    page = decode_page(line)
+    assert (page.folder, page.first, page.next, page.error) == ("0:/macros", 0, 0, 0)
+    assert page.entries[0] == ("01-Test_IR_PD_Homing", False, 641, "2019-03-12T11:49:22")
+    assert len(page.entries) == len(json.loads(line)["files"])
 
 
 @fed_as(OTHER)

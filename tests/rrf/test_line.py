@@ -19,6 +19,7 @@ STATUS = '{"status":"I","coords":{"axesHomed":[0,0,0]},"time":53.0}'
 CONFIG = '{"axisMins":[0.00,0.00],"firmwareDate":"2020-01-03b3", "sysdir":"0:/sys/"}'
 NO_ROOM = '{"err":-1}'
 NAN = '{"status":"I","pos":[nan,-nan,inf,0.000]}'
+FOLDER = '{"dir":"0:/","files":[{"type":"f","name":"{\\"key\\":"}],"next":0}'
 SPOILT = '{"status":"I","machine":[150.000 ,150.005.000],"time":1}'
 UNDER_VOLTAGE = "Warning: VIN under-voltage event (11.0V)"
 
@@ -31,6 +32,7 @@ FOUND = {
     "S0": (LEGACY, LEGACY, ""),
     "S2 to S4": (STATUS, STATUS, ""),
     "S5": (CONFIG, CONFIG, ""),
+    "folder": (FOLDER + "\n", FOLDER, ""),
     "no buffers": (NO_ROOM + "\n", NO_ROOM, ""),
     "nan": (NAN, NAN, ""),
     "glued before": (UNDER_VOLTAGE + LIVE + "\n", LIVE, UNDER_VOLTAGE),
@@ -83,8 +85,6 @@ NOT_FOUND = {
         '{"err":0,"fileName":"a.g","customInfo":{"key":"x","status":1}}'
     ),
     "slicer's member called status": '{"err":0,"customInfo":{"status":"x"}}',
-    "folder": '{"dir":"0:/gcodes/","first":0,"files":["a.gcode","*sub"],"next":0,"err":0}',
-    "folder, long form": '{"dir":"0:/","files":[{"type":"f","name":"{\\"key\\":"}],"next":0}',
     "card": '{"SDinfo":{"slot":0,"present":1}}',
     "panel's message": '{"seq":3,"resp":"{\\"key\\":1}"}',
     "beep": '{"beep_freq":1000,"beep_length":100}',

@@ -1,0 +1,275 @@
+"""The glue about the card, on a connection that only remembers."""
+
+import pytest
+
+pytest.importorskip("octoprint")
+
+from octoprint_rrfmodel.comm import SWALLOWED
+from octoprint_rrfmodel.rrf.card import CardPlan
+from octoprint_rrfmodel.rrf.reply import FolderEntry, FolderPage
+from octoprint_rrfmodel.sdcard import LONG_NAMES, SdCard
+from octoprint_rrfmodel.sdjob import CANCEL_SECONDS, PREFIX, SdJob
+from octoprint_rrfmodel.sdupload import UploadRefusal
+
+CANCEL = {"trigger:comm.cancel", "trigger:cancel"}
+FILE = {"fileName": "0:/gcodes/a b.gcode", "size": 500}
+
+
+class Connection:
+    """OctoPrint's connection, as far as the card is concerned."""
+
+    def __init__(self):
+        self._sdEnabled = True
+        self._sdFiles = {}
+        self._sdFileToSelect = None
+        self._serial_encoding = "ascii"
+        self._ignore_select = False
+        self.state = "operational"
+        self.is_ready = True
+        self.called = []
+
+    def isSdReady(self):
+        return self.is_ready
+
+    def isSdFileSelected(self):
+        return self.state in ("printing", "paused")
+
+    def isSdPrinting(self):
+        return self.state == "printing"
+
+    def isPrinting(self):
+        return self.state == "printing"
+
+    def isPaused(self):
+        return self.state == "paused"
+
+    def isBusy(self):
+        return self.state in ("printing", "paused")
+
+    def isOperational(self):
+        return True
+
+    def isStarting(self):
+        return False
+
+    isPausing = isResuming = isCancelling = isFinishing = isStarting
+
+    def refreshSdFiles(self, tags):
+        self.called.append("refresh")
+
+    def initSdCard(self, tags):
+        self.called.append("init")
+
+
+class Bench:
+    """A card with its job, a connection, and a model and a clock that a test sets."""
+
+    def __init__(self):
+        self.comm = Connection()
+        self.model = {}
+        self.sent = []
+        self.now = 0.0
+        self.is_current = True
+        job = SdJob(lambda: self.model, lambda: self.is_current, self.sent.append, lambda: self.now)
+        self.plan = CardPlan()
+        self.card = SdCard(
+            self.plan, job, lambda: self.comm, lambda: self.model, lambda *command: "else"
+        )
+        self.card.identified()
+
+    def list(self, *names):
+        self.plan.refetch()
+        request = self.plan.next_request()
+        entries = tuple(FolderEntry(name, False, 500, "2024-11-04T20:21:00") for name in names)
+        self.plan.take(FolderPage(request.folder, 0, entries, 0, 0))
+
+    def status(self, status):
+        self.model = {
+            "state": {"status": status},
+            "seqs": {"volChanges": [1]},
+            "job": {"file": FILE, "filePosition": 123},
+        }
+        self.card.on_news()
+
+    def hear(self, *lines):
+        return [self.card.reword(line + "\n") for line in lines]
+
+
+@pytest.fixture
+def bench():
+    return Bench()
+
+
+def test_first_swallowed_line_ends_the_wait_for_capabilities(bench):
+    assert bench.card.fill() == LONG_NAMES
+    assert bench.card.fill() == SWALLOWED
+
+
+def test_names_go_out_as_utf8_unless_somebody_wants_another_encoding(bench):
+    assert bench.comm._serial_encoding == "utf-8"
+    bench.comm._serial_encoding = "latin-1"
+    bench.card.identified()
+    assert bench.comm._serial_encoding == "latin-1"
+
+
+def test_plain_list_serves_where_there_is_no_other(bench):
+    bench.card.fill()
+    lines = ("Begin file list", "Two layers.gcode", "Spare parts", "Ü.g", "End file list")
+    heard = bench.hear(*lines)
+    assert heard[0].strip() == lines[0]
+    assert heard[1:4] == [SWALLOWED] * 3
+    assert heard[4].strip() == lines[4]
+    assert {file.longname for file in bench.comm._sdFiles.values()} == {"Two layers.gcode", "Ü.g"}
+    assert all(name.startswith(PREFIX) and name.isascii() for name in bench.comm._sdFiles)
+    assert all(file.size == 0 for file in bench.comm._sdFiles.values())
+
+
+def test_known_list_stands_for_the_plain_one(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    bench.hear("Begin file list", "other.gcode", "End file list")
+    ((name, file),) = bench.comm._sdFiles.items()
+    assert (file.name, file.size, file.longname) == (name, 500, "a b.gcode")
+
+
+def test_other_lines_come_through_a_list(bench):
+    bench.card.fill()
+    heard = bench.hear("Begin file list", "T:20.0 /0.0", "NONE", "End file list")
+    assert heard[1] == "T:20.0 /0.0\n"
+    assert bench.comm._sdFiles == {}
+    assert bench.hear("a.gcode") == ["a.gcode\n"]
+
+
+def test_list_that_has_changed_is_asked_for_once_the_print_is_over(bench):
+    bench.comm.state = "printing"
+    bench.list("a.gcode")
+    bench.card.on_news()
+    assert bench.comm.called == []
+    bench.comm.state = "operational"
+    bench.card.on_news()
+    bench.card.on_news()
+    assert bench.comm.called == ["refresh"]
+
+
+def test_card_that_was_not_heard_of_is_asked_for_once(bench):
+    bench.comm.is_ready = False
+    bench.card.on_news()
+    bench.card.on_news()
+    assert bench.comm.called == ["init"]
+
+
+def test_octoprints_refresh_looks_again_where_changes_are_not_counted(bench):
+    bench.list("a.gcode")
+    assert not bench.plan.behind
+    bench.card.translate("M20", "M20", {"trigger:comm.refresh_sd_files"})
+    assert bench.plan.behind
+    bench.list("a.gcode")
+    tags = {"trigger:comm.refresh_sd_files", "trigger:rrfmodel.card"}
+    bench.card.translate("M20", "M20", tags)
+    assert not bench.plan.behind
+
+
+@pytest.mark.parametrize(
+    ("command", "tag"),
+    [
+        ("M23 {}", "trigger:comm.select_file"),
+        ("M23 /{}", "trigger:comm.start_print"),
+        ("M30 /{}", "trigger:comm.delete_sd_file"),
+    ],
+)
+def test_name_becomes_a_path(bench, command, tag):
+    bench.list("Bob's b.gcode")
+    (alias,) = bench.plan.index.files
+    gcode = command[:3]
+    lines = bench.card.translate(command.format(alias), gcode, {tag}).lines
+    assert lines == (f"{gcode} \"0:/gcodes/Bob''s b.gcode\"",)
+    typed = bench.card.translate(command.format(alias), gcode, {"trigger:printer.commands"})
+    assert typed is None
+
+
+def test_other_commands_are_for_others(bench):
+    assert bench.card.translate("M105", "M105", {"trigger:comm.poll_temperature"}) == "else"
+
+
+def test_cancelling_pauses_and_ends(bench):
+    bench.status("processing")
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ("M25", "M400 M0")
+    assert bench.card.translate("M26 S0", "M26", CANCEL).lines == ()
+    assert bench.card.translate("M27", "M27", CANCEL) is None
+
+
+def test_cancelling_a_paused_job_only_ends_it(bench):
+    bench.status("paused")
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ("M400 M0",)
+
+
+def test_end_comes_again_when_a_pause_was_put_off(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    bench.card.translate("M25", "M25", CANCEL)
+    bench.status("pausing")
+    assert bench.hear("SD printing byte 300/500") == ["Not SD printing."]
+    assert bench.sent == []
+    bench.status("paused")
+    bench.status("paused")
+    assert bench.sent == ["M400 M0"]
+    bench.status("idle")
+    bench.comm.state = "printing"
+    assert bench.hear("SD printing byte 300/500") == ["SD printing byte 300/500\n"]
+
+
+def test_pause_that_never_comes_is_not_waited_for(bench):
+    bench.card.translate("M25", "M25", CANCEL)
+    bench.now = CANCEL_SECONDS + 1
+    bench.status("processing")
+    bench.status("paused")
+    assert bench.sent == []
+
+
+def test_old_news_decide_nothing(bench):
+    bench.is_current = False
+    bench.card.translate("M25", "M25", CANCEL)
+    bench.status("paused")
+    assert bench.sent == []
+
+
+@pytest.mark.parametrize(
+    ("shown", "status", "said"),
+    [
+        ("printing", "paused", ["// action:paused"]),
+        ("paused", "processing", ["// action:resumed"]),
+        ("printing", "processing", []),
+        ("paused", "paused", []),
+        ("operational", "idle", []),
+    ],
+)
+def test_octoprint_follows_the_machine(bench, shown, status, said):
+    bench.card.fill()
+    bench.comm.state = shown
+    bench.status(status)
+    heard = [bench.card.fill()]
+    assert heard == (said or [SWALLOWED])
+
+
+def test_job_of_the_machine_is_selected_once(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    (alias,) = bench.plan.index.files
+    bench.status("processing")
+    bench.status("processing")
+    assert bench.card.fill() == f"File opened: {PREFIX}{alias} Size: 500"
+    # the second one in place of the blank line behind the board's JSON
+    assert bench.hear("") == ["File selected"]
+    bench.status("processing")
+    assert bench.card.fill() == SWALLOWED
+
+
+def test_upload_of_another_plugin_fails_at_once():
+    failed = []
+    refusal = UploadRefusal(lambda: True)
+    name = refusal.on_upload(
+        None, "a.gcode", "/tmp/a.gcode", None, None, lambda *names: failed.append(names)
+    )
+    assert name == "a.gcode"
+    assert failed == [("a.gcode", "a.gcode", 0)]
+    assert UploadRefusal(lambda: False).on_upload(None, "a", "a", None, None, None) is None
