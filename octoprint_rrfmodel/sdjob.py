@@ -6,7 +6,7 @@ receiving thread, ``news`` on the worker.
 
 from octoprint.util.version import is_octoprint_compatible
 
-from .rrf.job import card_job
+from .rrf.job import CardJob, card_job
 from .rrf.operations import Lines
 from .rrf.wording import Situation
 
@@ -42,6 +42,7 @@ class SdJob:
         self._adopted = None
         self._cancelled_at = None
         self._asks_again = False
+        self._settled = CardJob()
 
     def cancel(self, gcode):
         """Return what goes out in the place of a command by which OctoPrint cancels.
@@ -80,9 +81,11 @@ class SdJob:
         """
         job = card_job(self._model())
         # a position that grows is a print of the selected file to OctoPrint unless it has one, and
-        # a new one if it has paused; the status is there before the name of the file
+        # a new one if it has paused; the status is there before the name of the file, so that only
+        # the last news that were current count
+        settled = self._settled
         is_other = knows_file and not (
-            self._is_current() and job.is_active and _is_selected(comm, index, job.path)
+            settled.is_active and _is_selected(comm, index, settled.path)
         )
         hides = (
             self._cancelled_at is not None or comm.isPaused() or (is_other and not comm.isBusy())
@@ -92,8 +95,9 @@ class SdJob:
     def news(self, comm, index):
         """Follow the board; return lines that tell OctoPrint of what it can't know."""
         if not self._is_current():
+            self._settled = CardJob()
             return ()
-        job = card_job(self._model())
+        job = self._settled = card_job(self._model())
         if self._cancelled_at is not None:
             self._finish_cancelling(job)
         elif job.is_active:
