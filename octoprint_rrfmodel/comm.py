@@ -6,7 +6,9 @@ None of them decodes, waits, or raises.
 
 from .rrf.blocking import BLOCKING, SETTLING
 from .rrf.errors import is_halted, is_serious
+from .rrf.heard import TELLING, heard
 from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
+from .rrf.unsendable import GCODES as UNSENDABLE
 
 POLL_TAG = "trigger:rrfmodel.poll"
 FILE_TAG = "source:file"
@@ -18,24 +20,33 @@ SWALLOWED = "// rrfmodel"
 
 STATUS_REQUEST = "M105"
 
+EMERGENCY_STOP = "M112"
+
+WATCHED = UNSENDABLE | {EMERGENCY_STOP}
+"""Commands that are looked at wherever they come from."""
+
 
 class CommBridge:
     """Knows OctoPrint's connection as far as polling needs to, and takes the replies out.
 
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
-    ``poll_sent``, ``status_sent`` and ``identified``; it must only take note and return.
+    ``poll_sent``, ``status_sent``, ``identified``, ``halted`` and ``heard`` (what a line tells);
+    it must only take note and return. ``drops(cmd, gcode)`` says whether a command isn't to be
+    sent, ``guards(error)`` whether a serious error only pauses the print.
     ``translate(cmd, gcode, tags)`` gives the lines to queue for a command that isn't a file's,
     ``None`` to leave it as it is. ``reword(line)`` gives a line in words that OctoPrint knows,
     ``fill()`` one in the place of a line that was the plugin's alone.
     ``show_target(heater, target)`` shows the target that a translated command sets.
     """
 
-    def __init__(self, notify, translate, reword, fill, show_target, clock):
+    def __init__(self, notify, translate, reword, fill, show_target, drops, guards, clock):
         self._notify = notify
         self._translate = translate
         self._reword = reword
         self._fill = fill
         self._show_target = show_target
+        self._drops = drops
+        self._guards = guards
         self._clock = clock
         self._comm = None
         self._is_rrf = False
@@ -105,6 +116,8 @@ class CommBridge:
             elif self.expects_refusal and ("M409" in line or "M408" in line):
                 self._notify("refused", line)
             else:
+                if line[:1] in TELLING:
+                    self._listen(line)
                 return self._reword(line)
             return line
         found = find_reply(line)
@@ -116,6 +129,11 @@ class CommBridge:
         if found.rest.startswith("ok"):
             self._acknowledged()
         return found.rest
+
+    def _listen(self, line):
+        told = heard(line)
+        if told:
+            self._notify("heard", told)
 
     def _acknowledged(self):
         if self._awaited in SETTLING:
@@ -155,6 +173,8 @@ class CommBridge:
         if gcode is None:
             if not cmd.startswith("T"):
                 return None
+        elif gcode in WATCHED and self._stops(cmd, gcode):
+            return (None,)
         elif tags and FILE_TAG not in tags:
             if POLL_TAG in tags and gcode != STATUS_REQUEST:
                 return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
@@ -164,6 +184,13 @@ class CommBridge:
         if gcode is not None and gcode not in BLOCKING:
             return None
         return [(STATUS_REQUEST, None, {STATUS_TAG}), (cmd, cmd_type)]
+
+    def _stops(self, cmd, gcode):
+        """Return whether a command is dropped; OctoPrint hangs up on an emergency stop."""
+        if gcode == EMERGENCY_STOP:
+            self._notify("halted")
+            return False
+        return self._drops(cmd, gcode)
 
     def _queue(self, translated, cmd_type, gcode):
         """Return the lines of an operation in the hook's form."""
@@ -208,12 +235,19 @@ class CommBridge:
         """Return True for an error that is no reason to stop: a command was refused, no more.
 
         A halted board answers the very first command so, before it can say what it is. A serious
-        one ends a print; else there is nothing to end, the board has looked after itself, and
-        only a connection shows what is wrong.
+        one ends a print that isn't paused because of it; else there is nothing to end, and only
+        a connection shows what is wrong.
         """
         if is_halted(message):
-            return not comm.isPrinting()
-        return comm is self._comm and not (is_serious(message) and comm.isPrinting())
+            ends = comm.isPrinting()
+        elif comm is not self._comm:
+            return False
+        else:
+            ends = is_serious(message) and comm.isPrinting() and not self._guards(message)
+        if ends:
+            # OctoPrint sends M112 and hangs up
+            self._notify("halted")
+        return not ends
 
     ##~~ what others ask
 
@@ -241,6 +275,13 @@ class CommBridge:
         """Return whether OctoPrint sends a print's lines right now."""
         comm = self._comm
         return comm is not None and comm.isPrinting() and not comm.isSdFileSelected()
+
+    def has_a_print(self):
+        """Return whether OctoPrint prints, or has paused, a file of its own on this board."""
+        comm = self._comm
+        if comm is None or comm.isSdFileSelected():
+            return False
+        return comm.isPrinting() or comm.isPaused()
 
     def baudrate(self):
         """Return the line's rate in bits a second, 0 where it is unknown."""

@@ -16,6 +16,7 @@ from .notices import notice_text
 from .operations import OperationTranslator
 from .permissions import permissions
 from .polling import Poller
+from .protection import DISABLED_PLUGIN, Protection
 from .push import ModelPush
 from .rrf.card import CardPlan
 from .rrf.follower import Follower
@@ -28,6 +29,7 @@ from .settings import DEFAULTS, VERSION
 from .simulated_port import SimulatedPort
 from .status import PluginStatus
 from .terminal import TerminalFilter
+from .unsendable import UnsendableCommands
 from .worker import Worker
 
 
@@ -45,6 +47,16 @@ class RrfModelPlugin(
 
     def __init__(self):
         clock = time.monotonic
+        self._protection = Protection(
+            lambda: self._printer,
+            lambda: self._printer_profile_manager,
+            lambda: self._settings,
+            self.get_plugin_data_folder,
+            lambda: self._bridge,
+            self._model,
+            self._notice,
+            clock,
+        )
         self._worker = Worker(
             {
                 "identified": self._on_identified,
@@ -53,20 +65,24 @@ class RrfModelPlugin(
                 "status_sent": lambda: self._poller.status_sent(),
                 "reply": lambda text: self._poller.reply(text),
                 "refused": lambda line: self._poller.refused(line),
-                "refused_operation": self._on_refused_operation,
+                "refused_operation": self._notice,
+                "heard": self._on_heard,
+                **self._protection.handlers,
             },
             [lambda: self._poller.tick(), lambda: self._push.tick()],
         )
         self._follower = Follower()
-        self._operations = OperationTranslator(
-            self._machine, self._is_translated, partial(self._worker.notify, "refused_operation")
-        )
+        refused = partial(self._worker.notify, "refused_operation")
+        self._operations = OperationTranslator(self._machine, self._is_translated, refused)
+        self._unsendable = UnsendableCommands(self._machine, self._is_translated, refused)
         self._bridge = CommBridge(
             self._worker.notify,
             lambda cmd, gcode, tags: self._card.translate(cmd, gcode, tags),
             lambda line: self._card.reword(line),
             lambda: self._card.fill(),
             lambda heater, target: self._display.show_target(heater, target),
+            self._unsendable.drops,
+            self._protection.guard.handles,
             clock,
         )
         self._display = Display(
@@ -89,6 +105,7 @@ class RrfModelPlugin(
             self._poller,
             self._follower,
             lambda: self._printer.is_operational(),
+            self._protection.advice,
             clock,
         )
         self._push = ModelPush(self._tell_pages, self._model, self._status, clock)
@@ -97,6 +114,14 @@ class RrfModelPlugin(
             lambda: self._settings.get_boolean(["hide_polls"]), self._bridge.has_polled
         )
         self._simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
+
+    ##~~ OctoPrintPlugin
+
+    def on_plugin_pending_uninstall(self):
+        self._protection.out_of_use()
+
+    def on_plugin_disabled(self):
+        self._protection.out_of_use()
 
     ##~~ StartupPlugin, ShutdownPlugin
 
@@ -113,6 +138,11 @@ class RrfModelPlugin(
         if event == Events.DISCONNECTED and not self._printer.is_operational():
             self._bridge.forget()
             self._worker.notify("disconnected")
+        if event == DISABLED_PLUGIN and payload["id"] == self._identifier:
+            self._protection.out_of_use()
+        note = self._protection.note_of(event)
+        if note and self._bridge.is_rrf:
+            self._worker.notify(note)
 
     ##~~ SettingsPlugin
 
@@ -151,6 +181,12 @@ class RrfModelPlugin(
 
     def on_api_get(self, request):
         return self._api.get_status()
+
+    def get_api_commands(self):
+        return self._protection.commands.names()
+
+    def on_api_command(self, command, data):
+        return self._protection.commands.run(command)
 
     ##~~ BlueprintPlugin
 
@@ -215,7 +251,7 @@ class RrfModelPlugin(
     def _is_translated(self, row):
         return self._settings.get_boolean(["operations", row])
 
-    def _on_refused_operation(self, code, detail):
+    def _notice(self, code, detail):
         self._tell_pages({"type": "notice", "code": code, "text": notice_text(code, detail)})
 
     def _known_temperatures(self):
@@ -226,6 +262,7 @@ class RrfModelPlugin(
     def _on_reply(self, taken, asked_at):
         if taken.reset:
             self._push.forgotten()
+            self._protection.guard.board_was_reset()
             return
         self._push.changed(taken.changes)
         self._card.on_news()
@@ -233,13 +270,20 @@ class RrfModelPlugin(
         # a reply asked for before OctoPrint's own last tool command says nothing about it
         if isinstance(tool, int) and asked_at > self._bridge.tool_command_at:
             self._display.follow_tool(tool)
+        self._protection.replied(asked_at)
+
+    def _on_heard(self, what):
+        self._protection.heard(what)
+        self._poller.hurry()
 
     def _on_identified(self):
         self._on_disconnected()
         self._card.identified()
+        self._protection.identified()
         self._poller.start()
 
     def _on_disconnected(self):
+        self._protection.disconnecting()
         self._poller.stop()
         self._push.forgotten()
 
@@ -258,6 +302,7 @@ def hooks_of(plugin):
         "octoprint.comm.protocol.temperatures.received": plugin._display.on_temperatures,
         "octoprint.comm.transport.serial.factory": plugin._simulated_port.open,
         "octoprint.comm.transport.serial.additional_port_names": plugin._simulated_port.names,
+        "octoprint.server.api.before_request": plugin._protection.guard.before_request,
         "octoprint.server.http.routes": plugin.routes,
         "octoprint.server.sockjs.emit": plugin._terminal.on_emit,
         "octoprint.access.permissions": permissions,

@@ -75,6 +75,7 @@ class Poller:
         self._poll = None
         self._running = False
         self._next_at = 0.0
+        self._hurries = False
         self._queries = collections.deque()
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
@@ -138,6 +139,11 @@ class Poller:
         future = concurrent.futures.Future()
         self._queries.append((ModelRequest(key, flags), future))
         return future
+
+    def hurry(self):
+        """Ask as soon as may be: something has happened."""
+        self._hurries = self._poll is not None
+        self._next_at = self._clock()
 
     ##~~ what the hooks noted
 
@@ -260,7 +266,8 @@ class Poller:
             behind=self._follower.behind or self._card.behind,
             begins=not self._follower.ready,
         )
-        self._next_at = self._clock() + wait
+        self._next_at = self._clock() + (0.0 if self._hurries else wait)
+        self._hurries = False
 
     def _take_page(self, poll, text):
         """Take a page of a folder's list."""

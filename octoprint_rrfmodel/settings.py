@@ -1,12 +1,16 @@
 """The plugin's settings and what they are when nobody has changed them."""
 
+from .rrf.alerts import GUARDS
 from .rrf.operations import ROWS
+from .rrf.unsendable import ROWS as UNSENDABLE
 
 VERSION = 1
 
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
-    "operations": {row.name: True for row in ROWS},
+    "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
+    # what pauses a print that OctoPrint streams
+    "guard": {code: True for code in GUARDS},
     # keep the plugin's polls out of the terminal tab
     "hide_polls": True,
     "simulator": {

@@ -1,19 +1,16 @@
 """The plugin's state, as ``GET /plugin/rrfmodel/status`` and every push tell it."""
 
-from flask_babel import gettext
-
-from .rrf.alerts import alerts
-
 
 class PluginStatus:
     """Puts the state together from those who know its parts; any thread may ask."""
 
-    def __init__(self, version, bridge, poller, follower, is_connected, clock):
+    def __init__(self, version, bridge, poller, follower, is_connected, warnings, clock):
         self._version = version
         self._bridge = bridge
         self._poller = poller
         self._follower = follower
         self._is_connected = is_connected
+        self._warnings = warnings
         self._clock = clock
         self._reported = {}
 
@@ -58,23 +55,3 @@ class PluginStatus:
             "electronics": said("ELECTRONICS") or board.get("name"),
             "date": board.get("firmwareDate") or said("FIRMWARE_DATE"),
         }
-
-    def _warnings(self):
-        texts = {
-            "halted": gettext(
-                "The machine was stopped by an emergency stop. Restart it with M999 or its power"
-                " switch."
-            ),
-            "off": gettext("The motors have no supply voltage."),
-            "heater_fault": gettext(
-                "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
-            ),
-        }
-        found = alerts(self._follower.store.model)
-        return [
-            {
-                "code": "_".join([alert.code, *map(str, alert.numbers)]),
-                "text": texts[alert.code] % {"number": alert.numbers[0] if alert.numbers else ""},
-            }
-            for alert in found
-        ]

@@ -33,6 +33,20 @@ def is_serious(text: str) -> bool:
     return _SERIOUS.search(text.lower()) is not None
 
 
+GUARDED = (
+    (re.compile(r"heater \d+ fault"), "heater_fault"),
+    (re.compile(r"driver [\d.]+ error"), "driver_error"),
+)
+"""Serious errors of firmware before 3.4 that the model shows too, and as which alert; later
+firmware tells them without ``Error:``."""
+
+
+def guarded_alert(text: str) -> str | None:
+    """Return the code of the alert by which the model shows what a serious error is about."""
+    lowered = text.lower()
+    return next((code for pattern, code in GUARDED if pattern.search(lowered)), None)
+
+
 def is_halted(text: str) -> bool:
     """Return whether a command was refused because the board was halted."""
     return HALTED in text.lower()

@@ -12,6 +12,9 @@ _VERSION = re.compile(r"(\d+)\.(\d+)(?:\.(\d+))?")
 M568_SETS_TOOLS = (3, 3)
 """From here on M568 sets a tool's temperatures and state; before, G10 and M104 do."""
 
+PRINTING = ("processing", "simulating", "pausing", "resuming")
+"""Words of ``state.status`` while a file on the card is under way."""
+
 HAS_EXPRESSIONS = (3, 0)
 """From here on a parameter may be an expression in braces."""
 
@@ -30,16 +33,26 @@ class Machine:
     @property
     def version(self) -> tuple[int, int, int]:
         """The firmware's version; ``(0, 0, 0)`` where none is known."""
-        board = _object(next(iter(_array(self._model.get("boards"))), None))
+        board = mapping(next(iter(array(self._model.get("boards"))), None))
         found = _VERSION.search(str(board.get("firmwareVersion", "")))
         return tuple(int(part or 0) for part in found.groups()) if found else (0, 0, 0)  # type: ignore[return-value]
+
+    @property
+    def is_halted(self) -> bool:
+        """Whether an emergency stop holds until the next reset."""
+        return mapping(self._model.get("state")).get("status") == "halted"
+
+    @property
+    def prints(self) -> bool:
+        """Whether the machine prints a file of its own and isn't paused."""
+        return mapping(self._model.get("state")).get("status") in PRINTING
 
     @property
     def tools(self) -> dict[int, Mapping[str, Any]]:
         """The tools by their numbers."""
         tools = {}
-        for tool in _array(self._model.get("tools")):
-            number = _object(tool).get("number")
+        for tool in array(self._model.get("tools")):
+            number = mapping(tool).get("number")
             if isinstance(number, int):
                 tools[number] = tool
         return tools
@@ -52,7 +65,7 @@ class Machine:
     @property
     def current_tool(self) -> Mapping[str, Any] | None:
         """The tool that is selected."""
-        number = _object(self._model.get("state")).get("currentTool")
+        number = mapping(self._model.get("state")).get("currentTool")
         return self.tools.get(number) if isinstance(number, int) else None
 
     @property
@@ -63,41 +76,43 @@ class Machine:
 
     def slot(self, kind: str) -> int | None:
         """Return the first slot of ``bedHeaters`` or ``chamberHeaters`` that has a heater."""
-        heat = _object(self._model.get("heat"))
-        for slot, heater in enumerate(_array(heat.get(kind))):
+        heat = mapping(self._model.get("heat"))
+        for slot, heater in enumerate(array(heat.get(kind))):
             if isinstance(heater, int) and heater >= 0:
                 return slot
         return None
 
     def unhomed(self, letters: str) -> str:
         """Return those of the axes that may not be moved because they aren't homed."""
-        move = _object(self._model.get("move"))
+        move = mapping(self._model.get("move"))
         # told from 3.4 on; off after M564 H0
         if not self._is_current or move.get("noMovesBeforeHoming") is not True:
             return ""
         homed = {
-            axis.get("letter"): axis.get("homed") for axis in map(_object, _array(move.get("axes")))
+            axis.get("letter"): axis.get("homed") for axis in map(mapping, array(move.get("axes")))
         }
         return "".join(letter for letter in letters if homed.get(letter) is False)
 
     def is_cold(self, tool: Mapping[str, Any]) -> bool:
         """Return whether a heater of the tool is too cold to extrude."""
-        heat = _object(self._model.get("heat"))
+        heat = mapping(self._model.get("heat"))
         limit = heat.get("coldExtrudeTemperature")
-        heaters = _array(heat.get("heaters"))
+        heaters = array(heat.get("heaters"))
         if not self._is_current or not isinstance(limit, (int, float)):
             return False
-        for index in _array(tool.get("heaters")):
-            heater = _object(heaters[index]) if 0 <= index < len(heaters) else {}
+        for index in array(tool.get("heaters")):
+            heater = mapping(heaters[index]) if 0 <= index < len(heaters) else {}
             current = heater.get("current")
             if isinstance(current, (int, float)) and current < limit:
                 return True
         return False
 
 
-def _object(value: Any) -> Mapping[str, Any]:
+def mapping(value: Any) -> Mapping[str, Any]:
+    """Return an object of the model, an empty one for anything else."""
     return value if isinstance(value, Mapping) else {}
 
 
-def _array(value: Any) -> list[Any]:
+def array(value: Any) -> list[Any]:
+    """Return an array of the model, an empty one for anything else."""
     return value if isinstance(value, list) else []

@@ -106,14 +106,15 @@ class PtyBoard:
                 self._stop.wait(TICK_SECONDS)
             return
         events = self._events(self._master)
+        # what was written before the port was closed has left it
+        if events & select.POLLIN:
+            with contextlib.suppress(BlockingIOError, OSError):
+                self.board.receive(os.read(self._master, CHUNK))
         if events & select.POLLHUP:
             self.board.transmit()
             self._unsent = b""
             self._stop.wait(TICK_SECONDS)
             return
-        if events & select.POLLIN:
-            with contextlib.suppress(BlockingIOError, OSError):
-                self.board.receive(os.read(self._master, CHUNK))
         self._send()
 
     def _events(self, master: int) -> int:

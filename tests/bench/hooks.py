@@ -47,6 +47,8 @@ def measure() -> None:
         reword=card.reword,
         fill=card.fill,
         show_target=lambda *target: None,
+        drops=lambda *command: False,
+        guards=lambda error: False,
         clock=lambda: 0.0,
     )
     bridge.on_firmware_info(comm, "RepRapFirmware for Duet 2 WiFi/Ethernet", {})

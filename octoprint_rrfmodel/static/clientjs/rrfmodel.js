@@ -22,6 +22,11 @@
             const query = $.param({key: key || "", flags: flags || ""});
             return this.base.get(this.url + "model?" + query, opts);
         }
+
+        /** Sends a command to the plugin; rejects with its reason in `responseJSON.error`. */
+        command(name, parameters, opts) {
+            return this.base.simpleApiCommand("rrfmodel", name, parameters || {}, opts);
+        }
     }
 
     OctoPrintClient.registerPluginComponent("rrfmodel", RrfModelClient);

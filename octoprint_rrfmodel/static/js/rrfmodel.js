@@ -44,26 +44,77 @@ $(function () {
             halted: gettext(
                 "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
             ),
-            off: gettext("The motors have no supply voltage.")
+            off: gettext("The motors have no supply voltage."),
+            reset: gettext(
+                "The board was reset during the print, which can't go on. Cancel it, then home."
+            ),
+            message_box_unanswerable: gettext(
+                "The machine waits for an answer that this firmware does not take over USB. Answer on the machine's own page or panel, or reset the machine."
+            ),
+            long_running_commands: gettext(
+                "OctoPrint does not know some of RepRapFirmware's commands that take long."
+            ),
+            uppercase: gettext(
+                "OctoPrint's terminal would change file names and texts to upper case."
+            ),
+            unknown_commands: gettext(
+                "OctoPrint does not count the acknowledgements of T-1 and of commands such as echo."
+            ),
+            external_heatup: gettext(
+                "OctoPrint would take RepRapFirmware's temperature reports for a heat-up."
+            ),
+            profile_tools: gettext(
+                "The printer profile has fewer extruders than the machine's highest tool number needs, so that OctoPrint drops tool commands."
+            ),
+            profile_reconnect: gettext(
+                "Disconnect the printer and connect it again: OctoPrint still uses the old number of extruders."
+            )
+        },
+        numbered: {
+            heater_fault: gettext(
+                "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
+            ),
+            filament_error: gettext(
+                "The filament monitor of extruder %(number)s reports an error. Check the filament."
+            ),
+            driver_error: gettext(
+                "Motor driver %(number)s reports an error. Find the cause."
+            )
+        },
+        /** What the button of a warning says, by the command that it sends. */
+        fix: {
+            recover: gettext("Restart the machine"),
+            fix_settings: gettext("Set OctoPrint's settings"),
+            fix_profile: gettext("Raise the number of extruders")
         }
     });
 
     let words;
 
-    const HEATER_FAULT = /^heater_fault_(\d+)$/;
+    /** A warning about one of several things: code, and numbers with underscores between. */
+    const NUMBERED = /^(heater_fault|filament_error|driver_error)_([\d_]+)$/;
+
+    /** The command that mends what a warning is about; asks for one permission each. */
+    const NEEDED_FOR = {
+        recover: "PLUGIN_RRFMODEL_CONTROL",
+        fix_settings: "SETTINGS",
+        fix_profile: "SETTINGS"
+    };
 
     /** The plugin's own words in the page's language for a warning of the server. */
     function warningText(warning) {
-        const fault = HEATER_FAULT.exec(warning.code);
-        if (fault) {
-            return _.sprintf(
-                gettext(
-                    "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
-                ),
-                {number: fault[1]}
-            );
+        const numbered = NUMBERED.exec(warning.code);
+        if (numbered) {
+            return _.sprintf(words.numbered[numbered[1]], {
+                number: numbered[2].replace("_", ".")
+            });
         }
         return words.warning[warning.code] || warning.text;
+    }
+
+    /** Whether a warning is about the machine; the others are advice, and can wait. */
+    function isFault(warning) {
+        return !warning.fix || warning.fix === "recover";
     }
 
     function degrees(value) {
@@ -183,9 +234,39 @@ $(function () {
             return axisMarks(self.model());
         });
 
+        /** Warnings to show, those that one button mends grouped with it. */
         self.warnings = ko.pureComputed(function () {
-            return (self.status().warnings || []).map(warningText);
+            const rows = [];
+            if (!self.mayRead()) return rows;
+            (self.status().warnings || []).forEach(function (warning) {
+                const fix = self.mayFix(warning.fix) ? warning.fix : "";
+                const last = rows[rows.length - 1];
+                if (fix && last && last.fix === fix) {
+                    last.texts.push(warningText(warning));
+                    return;
+                }
+                rows.push({
+                    texts: [warningText(warning)],
+                    fix: fix,
+                    fixText: words.fix[fix] || "",
+                    kind: isFault(warning) ? "warning" : "advice",
+                    labelClass: isFault(warning) ? "alert-error" : ""
+                });
+            });
+            return rows;
         });
+
+        self.mayFix = function (fix) {
+            const permission = NEEDED_FOR[fix];
+            return !!permission && self.loginState.hasPermission(self.access.permissions[permission]);
+        };
+
+        self.fix = function (row) {
+            if (!self.mayFix(row.fix)) return;
+            OctoPrint.plugins.rrfmodel.command(row.fix).fail(function (xhr) {
+                self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));
+            });
+        };
 
         self.firmwareText = ko.pureComputed(function () {
             const firmware = self.status().firmware;
@@ -236,7 +317,7 @@ $(function () {
         /** Tell each warning once; it may be told again when its cause was gone in between. */
         self.tell = function (warnings) {
             const told = {};
-            warnings.forEach(function (warning) {
+            warnings.filter(isFault).forEach(function (warning) {
                 told[warning.code] =
                     self.told[warning.code] ||
                     new PNotify({
@@ -245,13 +326,34 @@ $(function () {
                         title_escape: true,
                         text_escape: true,
                         type: "error",
-                        hide: false
+                        hide: false,
+                        confirm: self.confirmation(warning)
                     });
             });
             Object.keys(self.told).forEach(function (code) {
                 if (!told[code]) self.told[code].remove();
             });
             self.told = told;
+        };
+
+        /** The part of a notification that has the button, for those who may press it. */
+        self.confirmation = function (warning) {
+            if (!self.mayFix(warning.fix)) return {};
+            const later = {
+                text: gettext("Later"),
+                click: function (notice) {
+                    notice.remove();
+                }
+            };
+            const now = {
+                text: words.fix[warning.fix],
+                addClass: "btn-primary",
+                click: function (notice) {
+                    notice.remove();
+                    self.fix(warning);
+                }
+            };
+            return {confirm: true, buttons: [later, now]};
         };
 
         self.notify = function (text) {

@@ -1,0 +1,36 @@
+"""A message box that waits on OctoPrint's line, where the firmware takes no answer to it there."""
+
+from .rrf.alerts import loses_boxes
+from .rrf.machine import Machine
+
+
+class UnanswerableBox:
+    """Remembers that the firmware asked for M292, until it answers something else again.
+
+    A macro that OctoPrint has started holds the line while its box is open, so that no reply can
+    tell of it. ``model()`` is the snapshot.
+    """
+
+    def __init__(self, model, clock):
+        self._model = model
+        self._clock = clock
+        self._opened_at = None
+
+    @property
+    def is_open(self):
+        """Whether nobody can answer the box over USB."""
+        return self._opened_at is not None
+
+    def opened(self):
+        """Note the text that comes with a box."""
+        if loses_boxes(Machine(self._model()).version):
+            self._opened_at = self._clock()
+
+    def answered(self, asked_at):
+        """Note a reply: asked for after the text, it shows that the line is free."""
+        if self._opened_at is not None and asked_at > self._opened_at:
+            self._opened_at = None
+
+    def forget(self):
+        """Know of no box: the connection is gone."""
+        self._opened_at = None

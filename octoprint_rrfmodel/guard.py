@@ -1,0 +1,115 @@
+"""A print that OctoPrint streams, paused when the machine can't print: RRF leaves that to hosts."""
+
+import flask
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+
+from .api import refusal
+from .notices import warning_text
+from .rrf.alerts import RESET, faults, is_resumable
+from .rrf.errors import guarded_alert
+
+JOB_ENDPOINT = "api.controlJob"
+"""OctoPrint's view of ``POST /api/job``."""
+
+
+class PrintGuard:
+    """Pauses OctoPrint's own print, once for each cause, and keeps it paused until that is over.
+
+    ``printer()`` is OctoPrint's printer. ``has_print()`` says whether it prints, or has paused,
+    one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on(code)`` says
+    whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``refusal`` and
+    ``handles`` may be called by any thread, all else by the worker.
+    """
+
+    def __init__(self, printer, has_print, model, is_on, tell):
+        self._printer = printer
+        self._has_print = has_print
+        self._model = model
+        self._is_on = is_on
+        self._tell = tell
+        self._was_reset = False
+        self._told = frozenset()
+
+    def causes(self):
+        """Return why the print may not go on, the worst first; nothing where there is none."""
+        if not self._has_print():
+            return []
+        found = [alert for alert in faults(self._model()) if self._is_on(alert.code)]
+        return [RESET, *found] if self._was_reset else found
+
+    def look(self):
+        """Pause if there is a reason to; tell each reason once."""
+        causes = self.causes()
+        self._told &= frozenset(causes)
+        printer = self._printer()
+        # what has begun to end or to pause needs nothing; cancelling is what a person wants
+        if not causes or not printer.is_printing():
+            return
+        if printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
+            return
+        printer.pause_print()
+        new = [cause for cause in causes if cause not in self._told]
+        self._told = frozenset(causes)
+        if new:
+            self._tell("print_paused", _sentences(new))
+
+    def board_was_reset(self):
+        """Note that the board has begun anew."""
+        if self._has_print() and self._is_on(RESET.code):
+            self._was_reset = True
+            self.look()
+
+    def resumed(self):
+        """Note that somebody has resumed the print: it is paused again if it may not go on."""
+        self._told = frozenset()
+        self.look()
+
+    def ended(self):
+        """Note that there is no print any more, or another one."""
+        self._was_reset = False
+        self._told = frozenset()
+
+    def handles(self, error):
+        """Return whether a serious error of the firmware only pauses the print."""
+        code = guarded_alert(error)
+        return code is not None and self._has_print() and self._is_on(code)
+
+    def refusal(self):
+        """Return why the print may not be resumed, ``None`` where it may."""
+        causes = self.causes()
+        if not causes:
+            return None
+        if all(is_resumable(cause) for cause in causes):
+            return gettext("The print stays paused. %(why)s", why=_sentences(causes))
+        return gettext("The print can only be cancelled. %(why)s", why=_sentences(causes))
+
+    ##~~ octoprint.server.api.before_request
+
+    def before_request(self, *args, **kwargs):
+        """Return what looks at each request to OctoPrint's API."""
+        return [self._look_at_request]
+
+    def _look_at_request(self):
+        request = flask.request
+        if request.endpoint != JOB_ENDPOINT or request.method != "POST":
+            return None
+        # without the permission OctoPrint's own answer is the right one
+        if not self._wants_to_go_on(request.get_json(silent=True)) or not Permissions.PRINT.can():
+            return None
+        why = self.refusal()
+        return refusal(409, why) if why else None
+
+    def _wants_to_go_on(self, data):
+        if not isinstance(data, dict):
+            return False
+        if data.get("command") == "restart":
+            return True
+        if data.get("command") != "pause":
+            return False
+        action = data.get("action", "toggle")
+        return action == "resume" or (action == "toggle" and self._printer().is_paused())
+
+
+def _sentences(alerts):
+    return " ".join(warning_text(alert.code, alert.numbers) for alert in alerts)

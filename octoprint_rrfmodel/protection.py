@@ -1,0 +1,112 @@
+"""What watches over prints, the connection and OctoPrint's settings, put together."""
+
+from functools import partial
+
+from octoprint.events import Events
+
+from .advice import Advice
+from .boxes import UnanswerableBox
+from .commands import PluginCommands
+from .guard import PrintGuard
+from .octoprint_settings import OctoPrintSettings
+from .printer_profile import PrinterProfile
+from .recovery import Recovery
+from .rrf.machine import Machine
+
+PRINT_BOUNDS = (
+    Events.PRINT_STARTED,
+    Events.PRINT_DONE,
+    Events.PRINT_FAILED,
+    Events.PRINT_CANCELLED,
+)
+"""Where one print ends or another begins."""
+
+DISABLED_PLUGIN = "plugin_pluginmanager_disable_plugin"
+"""The plugin manager's event for a plugin that somebody takes out of use; one that needs a
+restart for that isn't told in any other way."""
+
+
+class Protection:
+    """Builds the parts and hands on what happens.
+
+    ``printer()``, ``profiles()`` and ``settings()`` are OctoPrint's, ``folder()`` is the plugin's
+    own. ``bridge()`` knows the connection, ``model()`` is the snapshot, ``notice(code, detail)``
+    reaches the pages.
+    """
+
+    def __init__(self, printer, profiles, settings, folder, bridge, model, notice, clock):
+        self._model = model
+        self._box = UnanswerableBox(model, clock)
+        self._settings = OctoPrintSettings(settings, folder)
+        self.guard = PrintGuard(
+            printer,
+            lambda: bridge().has_a_print(),
+            model,
+            lambda code: settings().get_boolean(["guard", code]),
+            notice,
+        )
+        self._recovery = Recovery(
+            printer,
+            lambda: bridge().connection,
+            lambda: profiles().get_current_or_default()["id"],
+            lambda: Machine(model()).prints,
+            partial(notice, "recover_failed", ""),
+        )
+        profile = PrinterProfile(profiles, lambda: bridge().connection, model)
+        self.advice = Advice(
+            model,
+            lambda: bridge().is_rrf,
+            lambda: printer().is_operational(),
+            self.guard,
+            self._recovery,
+            self._settings,
+            profile,
+            self._box,
+        )
+        self.commands = PluginCommands(self._recovery, self._settings, profile)
+        self.handlers = {
+            "halted": self._recovery.halted,
+            "print_resumed": self.guard.resumed,
+            "print_bound": self.guard.ended,
+            "settings_updated": self._settings.look,
+        }
+        """Name of a note to the worker → what is done there."""
+
+    @staticmethod
+    def note_of(event):
+        """Return the note that an event of OctoPrint's is to leave, ``None`` for most."""
+        if event == Events.PRINT_RESUMED:
+            return "print_resumed"
+        if event == Events.SETTINGS_UPDATED:
+            return "settings_updated"
+        return "print_bound" if event in PRINT_BOUNDS else None
+
+    def out_of_use(self):
+        """Set OctoPrint's settings back: the plugin will be gone."""
+        self._settings.restore()
+
+    ##~~ on the worker
+
+    def identified(self):
+        """Note that RepRapFirmware is at the other end."""
+        self._recovery.connected()
+        self._settings.look()
+
+    def disconnecting(self):
+        """Note that the connection is gone, before what is known of the board is forgotten."""
+        if Machine(self._model()).is_halted:
+            self._recovery.halted()
+        self._box.forget()
+        self.guard.ended()
+
+    def heard(self, what):
+        """Note what a line of text tells."""
+        if what == "reset":
+            self.guard.board_was_reset()
+        elif what == "box":
+            self._box.opened()
+
+    def replied(self, asked_at):
+        """Look at the model that a reply has changed."""
+        self._box.answered(asked_at)
+        self.guard.look()

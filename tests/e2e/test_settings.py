@@ -1,0 +1,153 @@
+"""OctoPrint's settings for RepRapFirmware: told, set by one button, set back; the profile too."""
+
+import pytest
+import yaml
+
+from tests.support.basedir import ADMIN, DISABLED_PLUGINS, OPERATOR, is_version_2
+
+from . import helpers
+
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
+
+CODES = ["long_running_commands", "uppercase", "unknown_commands", "external_heatup"]
+
+
+@pytest.fixture
+def server(server_factory):
+    return server_factory(serial={"longRunningCommands": ["G28", "M600", "M1234"]})
+
+
+def warnings(server):
+    return {found["code"]: found for found in helpers.status(server)["warnings"]}
+
+
+def command(client, name):
+    return client.post("/api/plugin/rrfmodel", json={"command": name})
+
+
+def stored(server):
+    """Return what OctoPrint has in its file, as far as it isn't the default."""
+    return yaml.safe_load((server.basedir / "config.yaml").read_text(encoding="utf-8"))
+
+
+def of_line(server):
+    config = stored(server)
+    if is_version_2(server.version):
+        return config["plugins"]["serial_connector"]
+    return config["serial"]
+
+
+def of_terminal(server):
+    name = "Blocklist" if is_version_2(server.version) else "Blacklist"
+    return stored(server).get("feature", {}).get(f"autoUppercase{name}")
+
+
+def test_told_fixed_and_restored(server, board_factory):
+    before = stored(server)
+    board = board_factory()
+    helpers.connect(server, board)
+    told = warnings(server)
+    assert [code for code in told if code in CODES] == CODES
+    assert all(told[code]["fix"] == "fix_settings" and told[code]["text"] for code in CODES)
+    # looking changes nothing, and only an administrator may
+    with server.client(OPERATOR) as operator:
+        assert command(operator, "fix_settings").status_code == 403
+    assert of_line(server) == (
+        before["plugins"]["serial_connector"] if is_version_2(server.version) else before["serial"]
+    )
+
+    assert command(server, "fix_settings").status_code == 204
+    assert not set(CODES) & set(warnings(server))
+    line = of_line(server)
+    assert line["longRunningCommands"][:3] == ["G28", "M600", "M1234"]
+    assert {"T", "M98", "M24"} <= set(line["longRunningCommands"])
+    assert line["unknownCommandsNeedAck"] is True
+    assert line["externalHeatupDetection"] is False
+    assert {"M117", "M707", "M409", "M98", "M23"} <= set(of_terminal(server))
+
+    # they take effect, and hold over a restart
+    server.restart()
+    helpers.connect(server, board)
+    assert not set(CODES) & set(warnings(server))
+    start = len(board.board.received())
+    server.commands('echo "one"', "T-1", 'M118 P1 S"two"')
+    server.wait_for(
+        lambda: any(text.startswith("M118") for text in helpers.commands(board)[start:]),
+        10,
+        "the line behind",
+    )
+
+    assert command(server, "restore_settings").status_code == 204
+    assert set(CODES) <= set(warnings(server))
+    line = of_line(server)
+    assert line["longRunningCommands"] == ["G28", "M600", "M1234"]
+    assert "unknownCommandsNeedAck" not in line
+    assert "externalHeatupDetection" not in line
+    assert of_terminal(server) is None
+
+
+def test_what_a_person_changed_since_stays(server, board_factory):
+    helpers.connect(server, board_factory())
+    command(server, "fix_settings")
+    commands = [*of_line(server)["longRunningCommands"], "M999"]
+    if is_version_2(server.version):
+        server.set_setting("plugins.serial_connector.longRunningCommands", commands)
+    else:
+        server.set_setting("serial.longRunningCommands", commands)
+    command(server, "restore_settings")
+    assert of_line(server)["longRunningCommands"] == ["G28", "M600", "M1234", "M999"]
+
+
+def test_out_of_use(server_factory, board_factory):
+    """The plugin manager disables the plugin, at the next start."""
+    disabled = [name for name in DISABLED_PLUGINS if name != "pluginmanager"]
+    server = server_factory(settings={"plugins": {"_disabled": disabled}})
+    helpers.connect(server, board_factory())
+    command(server, "fix_settings")
+    assert "longRunningCommands" in of_line(server)
+    response = server.post(
+        "/api/plugin/pluginmanager", json={"command": "disable", "plugin": "rrfmodel"}
+    )
+    assert response.status_code == 200, response.text
+    server.wait_for(
+        lambda: "longRunningCommands" not in of_line(server), 10, "the settings to be as before"
+    )
+    assert of_terminal(server) is None
+
+
+def test_nothing_on_other_printers(server_factory):
+    server = server_factory(plugins_config={"virtual_printer": {"enabled": True}})
+    server.connect("VIRTUAL")
+    server.wait_state("Operational")
+    assert warnings(server) == {}
+    response = server.post("/api/plugin/rrfmodel", json={"command": "recover"})
+    assert response.status_code == 409
+    assert server.state() == "Operational"
+
+
+def test_profile(server, board_factory):
+    board = board_factory(machine="toolchanger")
+    helpers.connect(server, board)
+    warning = server.wait_for(lambda: warnings(server).get("profile_tools"), 5, "the warning")
+    assert warning["fix"] == "fix_profile"
+    with server.client(OPERATOR) as operator:
+        assert command(operator, "fix_profile").status_code == 403
+    assert command(server, "fix_profile").status_code == 204
+    numbers = [tool["number"] for tool in helpers.value(server, "tools") if tool]
+    profile = server.get("/api/printerprofiles/_default").json()
+    assert profile["extruder"]["count"] == max(numbers) + 1
+    assert len(profile["extruder"]["offsets"]) == max(numbers) + 1
+    if is_version_2(server.version):
+        assert "fix" not in warnings(server)["profile_reconnect"]
+        helpers.connect(server, board)
+    assert not {"profile_tools", "profile_reconnect"} & set(warnings(server))
+    server.commands(f"T{max(numbers)}")
+    helpers.wait_value(server, "state.currentTool", max(numbers), 20)
+
+
+def test_unknown_command(server):
+    assert command(server, "nonsense").status_code == 400
+    with server.client() as nobody:
+        assert command(nobody, "fix_settings").status_code in (400, 403)
+    with server.session(ADMIN) as session:
+        assert command(session, "restore_settings").status_code == 204
