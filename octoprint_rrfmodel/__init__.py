@@ -10,7 +10,8 @@ __plugin_pythoncompat__ = ">=3.9,<4"
 
 def __plugin_load__():
     """Build the plugin and hand OctoPrint its implementation, hooks and helpers."""
-    from .plugin import RrfModelPlugin, hooks_of
+    from .hooks import hooks_of
+    from .plugin import RrfModelPlugin
 
     global __plugin_implementation__, __plugin_hooks__, __plugin_helpers__
     __plugin_implementation__ = RrfModelPlugin()

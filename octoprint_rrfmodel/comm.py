@@ -9,9 +9,14 @@ from .rrf.errors import is_halted, is_serious
 from .rrf.heard import TELLING, heard
 from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
 from .rrf.unsendable import GCODES as UNSENDABLE
+from .rrf.wording import BEGINNINGS, LIST_BEGINS
+from .surplus import SurplusOk
 
 POLL_TAG = "trigger:rrfmodel.poll"
 FILE_TAG = "source:file"
+ATTENDED = TELLING | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
+"""First letters of lines that are looked at; most lines begin otherwise and cost little."""
+
 POLL_TYPE = "rrfmodel_poll"
 STATUS_TAG = "trigger:rrfmodel.status"
 
@@ -34,16 +39,15 @@ class CommBridge:
     it must only take note and return. ``drops(cmd, gcode)`` says whether a command isn't to be
     sent, ``guards(error)`` whether a serious error only pauses the print.
     ``translate(cmd, gcode, tags)`` gives the lines to queue for a command that isn't a file's,
-    ``None`` to leave it as it is. ``reword(line)`` gives a line in words that OctoPrint knows,
-    ``fill()`` one in the place of a line that was the plugin's alone.
+    ``None`` to leave it as it is. ``card.reword(line)`` gives a line in words that OctoPrint
+    knows, ``card.fill()`` one in the place of a line that was the plugin's alone.
     ``show_target(heater, target)`` shows the target that a translated command sets.
     """
 
-    def __init__(self, notify, translate, reword, fill, show_target, drops, guards, clock):
+    def __init__(self, notify, translate, card, show_target, drops, guards, clock):
         self._notify = notify
         self._translate = translate
-        self._reword = reword
-        self._fill = fill
+        self._card = card
         self._show_target = show_target
         self._drops = drops
         self._guards = guards
@@ -55,7 +59,7 @@ class CommBridge:
         """When OctoPrint last sent a command that selects a tool."""
         self._polled = set()
         self._targets = {}
-        self._surplus = None
+        self._surplus = SurplusOk()
         self.settled_at = 0.0
         """When the last command that blocks was through: older news of the machine may be wrong."""
         self.rewritten = 0
@@ -80,7 +84,7 @@ class CommBridge:
         self._awaited = None
         self._polled = set()
         self._targets = {}
-        self._surplus = None
+        self._surplus = SurplusOk()
         self.expects_refusal = False
 
     ##~~ octoprint.comm.protocol.firmware.info
@@ -106,56 +110,51 @@ class CommBridge:
         if comm is not self._comm:
             return line
         if '{"' not in line:
-            if line.startswith(VOLTAGE_WARNING):
-                # OctoPrint sees an ok only where a line starts with it, and waits half a minute
-                line = without_warning(line)
-            if self._surplus is not None:
-                return self._without_surplus(line)
-            if line.startswith("ok"):
-                self._acknowledged()
-            elif self.expects_refusal and ("M409" in line or "M408" in line):
-                self._notify("refused", line)
-            else:
-                if line[:1] in TELLING:
-                    self._listen(line)
-                return self._reword(line)
+            if line[:1] == "o" and self._surplus.awaits is None:
+                if self._awaited is not None and line.startswith("ok"):
+                    self._acknowledged()
+                return line
+            if (
+                line[:1] in ATTENDED
+                or self._surplus.awaits is not None
+                or self.expects_refusal
+                or self._card.is_talking
+            ):
+                return self._text(line)
             return line
         found = find_reply(line)
         if found is None:
             return line
         self._notify("reply", found.reply)
         if not found.rest:
-            return self._fill()
+            return self._card.fill()
         if found.rest.startswith("ok"):
             self._acknowledged()
         return found.rest
 
-    def _listen(self, line):
-        told = heard(line)
-        if told:
-            self._notify("heard", told)
+    def _text(self, line):
+        """Return a line that holds no JSON and is no plain ok, as OctoPrint is to read it."""
+        if line[:1] in TELLING:
+            told = heard(line)
+            if told:
+                self._notify("heard", told)
+            if line.startswith(VOLTAGE_WARNING):
+                # OctoPrint sees an ok only where a line starts with it, and waits half a minute
+                line = without_warning(line)
+        if self._surplus.awaits is not None and self._surplus.is_in(line):
+            return SWALLOWED
+        if line.startswith("ok"):
+            self._acknowledged()
+            return line
+        if self.expects_refusal and ("M409" in line or "M408" in line):
+            self._notify("refused", line)
+            return line
+        return self._card.reword(line)
 
     def _acknowledged(self):
         if self._awaited in SETTLING:
             self.settled_at = self._clock()
         self._awaited = None
-
-    def _without_surplus(self, line):
-        """Return a line that follows one of several commands, without an ok too many.
-
-        When a move on such a line fails, the last command on it has been read already and is
-        acknowledged too (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80), in the very next line.
-        """
-        if self._surplus == "possible" and line.startswith("Error:"):
-            self._surplus = "certain"
-        elif self._surplus == "next":
-            self._surplus = None
-            if line.strip() == "ok":
-                return SWALLOWED
-        if line.startswith("ok"):
-            self._surplus = "next" if self._surplus == "certain" else None
-            self._acknowledged()
-        return line
 
     ##~~ octoprint.comm.protocol.gcode.queuing
 
@@ -215,8 +214,7 @@ class CommBridge:
         if gcode is None and cmd.startswith("T"):
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
         self._awaited = gcode
-        if self._surplus != "next":
-            self._surplus = "possible" if gcode == "M120" else None
+        self._surplus.sending(gcode)
         if self._targets and cmd in self._targets:
             self._show_target(*self._targets.pop(cmd))
         if gcode in ("T", "M109"):

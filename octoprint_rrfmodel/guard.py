@@ -86,11 +86,8 @@ class PrintGuard:
 
     ##~~ octoprint.server.api.before_request
 
-    def before_request(self, *args, **kwargs):
-        """Return what looks at each request to OctoPrint's API."""
-        return [self._look_at_request]
-
-    def _look_at_request(self):
+    def refuse(self):
+        """Return an answer for a request that would resume the print, ``None`` for others."""
         request = flask.request
         if request.endpoint != JOB_ENDPOINT or request.method != "POST":
             return None

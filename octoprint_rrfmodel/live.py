@@ -9,7 +9,7 @@ from octoprint.server.util.flask import permission_validator
 from octoprint.server.util.tornado import access_validation_factory
 
 from .api import refusal_to_send
-from .polling import TooManyQueries
+from .poll_slot import TooManyQueries
 
 WAIT_SECONDS = 10.0
 

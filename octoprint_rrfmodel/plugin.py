@@ -14,7 +14,6 @@ from .comm import POLL_TAG, CommBridge
 from .display import Display
 from .notices import notice_text
 from .operations import OperationTranslator
-from .permissions import permissions
 from .polling import Poller
 from .protection import DISABLED_PLUGIN, Protection
 from .push import ModelPush
@@ -52,7 +51,7 @@ class RrfModelPlugin(
             lambda: self._printer_profile_manager,
             lambda: self._settings,
             self.get_plugin_data_folder,
-            lambda: self._bridge,
+            lambda: self.bridge,
             self._model,
             self._notice,
             clock,
@@ -75,33 +74,32 @@ class RrfModelPlugin(
         refused = partial(self._worker.notify, "refused_operation")
         self._operations = OperationTranslator(self._machine, self._is_translated, refused)
         self._unsendable = UnsendableCommands(self._machine, self._is_translated, refused)
-        self._bridge = CommBridge(
-            self._worker.notify,
-            lambda cmd, gcode, tags: self._card.translate(cmd, gcode, tags),
-            lambda line: self._card.reword(line),
-            lambda: self._card.fill(),
-            lambda heater, target: self._display.show_target(heater, target),
-            self._unsendable.drops,
-            self._protection.guard.handles,
-            clock,
-        )
-        self._display = Display(
-            lambda: self._bridge.connection, self._known_temperatures, eventManager().fire
+        self.display = Display(
+            lambda: self.bridge.connection, self._known_temperatures, eventManager().fire
         )
         self._card = SdCard(
             CardPlan(),
             SdJob(self._model, self._is_current, lambda line: self._printer.commands(line), clock),
-            lambda: self._bridge.connection,
+            lambda: self.bridge.connection,
             self._model,
             self._operations.translate,
         )
-        self._uploads = UploadRefusal(lambda: self._bridge.is_rrf)
+        self.bridge = CommBridge(
+            self._worker.notify,
+            self._card.translate,
+            self._card,
+            self.display.show_target,
+            self._unsendable.drops,
+            self._protection.guard.handles,
+            clock,
+        )
+        self.uploads = UploadRefusal(lambda: self.bridge.is_rrf)
         self._poller = Poller(
-            self._follower, self._card, self._bridge, self._send, self._on_reply, clock
+            self._follower, self._card, self.bridge, self._send, self._on_reply, clock
         )
         self._status = PluginStatus(
             lambda: self._plugin_version,
-            self._bridge,
+            self.bridge,
             self._poller,
             self._follower,
             lambda: self._printer.is_operational(),
@@ -110,10 +108,10 @@ class RrfModelPlugin(
         )
         self._push = ModelPush(self._tell_pages, self._model, self._status, clock)
         self._api = ModelApi(self._model, self._status)
-        self._terminal = TerminalFilter(
-            lambda: self._settings.get_boolean(["hide_polls"]), self._bridge.has_polled
+        self.terminal = TerminalFilter(
+            lambda: self._settings.get_boolean(["hide_polls"]), self.bridge.has_polled
         )
-        self._simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
+        self.simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
 
     ##~~ OctoPrintPlugin
 
@@ -136,12 +134,12 @@ class RrfModelPlugin(
     def on_event(self, event, payload):
         # events come late: by now another connection may be up, which brings its own beginning
         if event == Events.DISCONNECTED and not self._printer.is_operational():
-            self._bridge.forget()
+            self.bridge.forget()
             self._worker.notify("disconnected")
         if event == DISABLED_PLUGIN and payload["id"] == self._identifier:
             self._protection.out_of_use()
         note = self._protection.note_of(event)
-        if note and self._bridge.is_rrf:
+        if note and self.bridge.is_rrf:
             self._worker.notify(note)
 
     ##~~ SettingsPlugin
@@ -216,7 +214,7 @@ class RrfModelPlugin(
         return [(r"/model/live", LiveModelHandler, parts)]
 
     def _why_not_now(self):
-        if not self._bridge.is_rrf:
+        if not self.bridge.is_rrf:
             return self._api.why_empty()
         if self._follower.protocol == "M408":
             return gettext("This firmware has no M409 and can't be asked for a key.")
@@ -224,12 +222,18 @@ class RrfModelPlugin(
             return gettext("The printer is busy and can't be asked now. Try again later.")
         return None
 
+    ##~~ octoprint.server.api.before_request
+
+    def before_request(self, *args, **kwargs):
+        """Return what looks at each request to OctoPrint's API before it is answered."""
+        return [self.uploads.refuse, self._protection.guard.refuse]
+
     ##~~ from the hooks' parts to OctoPrint
 
     def on_firmware_info(self, comm, firmware_name, data, *args, **kwargs):
         """Keep what the firmware says of itself, and find out whether it is RepRapFirmware."""
         self._status.reported(data)
-        self._bridge.on_firmware_info(comm, firmware_name, data)
+        self.bridge.on_firmware_info(comm, firmware_name, data)
 
     def _model(self):
         return self._follower.store.model
@@ -243,7 +247,7 @@ class RrfModelPlugin(
         )
 
     def _is_current(self):
-        return self._poller.asked_at > self._bridge.settled_at and not self._follower.behind
+        return self._poller.asked_at > self.bridge.settled_at and not self._follower.behind
 
     def _machine(self):
         return Machine(self._model(), self._is_current())
@@ -268,11 +272,14 @@ class RrfModelPlugin(
         self._card.on_news()
         tool = self._model().get("state", {}).get("currentTool")
         # a reply asked for before OctoPrint's own last tool command says nothing about it
-        if isinstance(tool, int) and asked_at > self._bridge.tool_command_at:
-            self._display.follow_tool(tool)
+        if isinstance(tool, int) and asked_at > self.bridge.tool_command_at:
+            self.display.follow_tool(tool)
         self._protection.replied(asked_at)
 
     def _on_heard(self, what):
+        if what == "card":
+            self._poller.card_refused()
+            return
         self._protection.heard(what)
         self._poller.hurry()
 
@@ -286,24 +293,3 @@ class RrfModelPlugin(
         self._protection.disconnecting()
         self._poller.stop()
         self._push.forgotten()
-
-
-def hooks_of(plugin):
-    """Return OctoPrint's hooks and who handles them; early, so that others see clean lines."""
-    bridge = plugin._bridge
-    return {
-        "octoprint.comm.protocol.gcode.received": (bridge.on_received, 1),
-        "octoprint.comm.protocol.gcode.queuing": bridge.on_queuing,
-        "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
-        "octoprint.comm.protocol.gcode.error": bridge.on_error,
-        "octoprint.comm.protocol.firmware.info": plugin.on_firmware_info,
-        "octoprint.printer.sdcardupload": plugin._uploads.on_upload,
-        "octoprint.server.api.before_request": plugin._uploads.handlers,
-        "octoprint.comm.protocol.temperatures.received": plugin._display.on_temperatures,
-        "octoprint.comm.transport.serial.factory": plugin._simulated_port.open,
-        "octoprint.comm.transport.serial.additional_port_names": plugin._simulated_port.names,
-        "octoprint.server.api.before_request": plugin._protection.guard.before_request,
-        "octoprint.server.http.routes": plugin.routes,
-        "octoprint.server.sockjs.emit": plugin._terminal.on_emit,
-        "octoprint.access.permissions": permissions,
-    }

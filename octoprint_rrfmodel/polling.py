@@ -8,8 +8,10 @@ import concurrent.futures
 import logging
 import re
 
+from .poll_slot import Poll, TooManyQueries
 from .rrf.follower import answers
 from .rrf.line import LIST_REPLY, NO_BUFFERS
+from .rrf.machine import Machine
 from .rrf.pace import Pace
 from .rrf.reply import MalformedReply, ModelReply, decode, decode_page
 from .rrf.request import LIVE_FLAGS, ModelRequest
@@ -31,27 +33,6 @@ CARD_POLLS_BETWEEN_LIVE = 2
 
 STALE_POLLS = 3
 """Poll intervals without news after which the model is stale."""
-
-
-class TooManyQueries(Exception):
-    """As many questions as may wait are waiting."""
-
-
-class _Poll:
-    """The request that is on its way."""
-
-    def __init__(self, request, query, is_card, queued_at):
-        self.request = request
-        self.query = query
-        self.is_card = is_card
-        self.queued_at = queued_at
-        self.sent_at = None
-        self.status_sent = False
-        self.answered = False
-
-    def is_over(self):
-        # the M105 behind it leaves when OctoPrint has the ok of the poll itself
-        return self.answered and self.status_sent
 
 
 class Poller:
@@ -206,6 +187,14 @@ class Poller:
             self._changed(taken, asked_at)
         self._finish_if_over()
 
+    def card_refused(self):
+        """Note that the board would not list a folder."""
+        poll = self._poll
+        if poll is not None and poll.is_card and poll.sent_at is not None and not poll.answered:
+            poll.answered = True
+            self._card.failed()
+            self._finish_if_over()
+
     ##~~ the poll slot
 
     def _start_poll(self, now):
@@ -220,7 +209,7 @@ class Poller:
             is_card = request is not None
         self._card_polls = self._card_polls + 1 if is_card else 0
         request = request or self._follower.next_request()
-        self._poll = _Poll(request, query, is_card, now)
+        self._poll = Poll(request, query, is_card, now)
         self._send(request.line)
 
     def _is_cards_turn(self):
@@ -229,6 +218,7 @@ class Poller:
             self._follower.ready
             and self._card_polls < CARD_POLLS_BETWEEN_LIVE
             and not self._bridge.is_streaming_a_print()
+            and not Machine(self._follower.store.model).is_halted
         )
 
     def _watch(self, now):
@@ -277,8 +267,9 @@ class Poller:
             self._logger.debug("List not understood, asking again: %s", error)
             page = None
         if page is None:
+            # the model comes first: a card that can't be read must not slow it down
             self._card.failed()
-            self._pace.failed()
+            self._card_polls = CARD_POLLS_BETWEEN_LIVE
         elif not self._card.take(page):
             return
         else:

@@ -11,7 +11,7 @@ from .comm import SWALLOWED
 from .rrf.card import PRINTABLE, ROOT, CardFile, path_of
 from .rrf.gcode import quoted
 from .rrf.operations import Lines
-from .rrf.wording import BEGINNINGS, reword
+from .rrf.wording import BEGINNINGS, LIST_BEGINS, LIST_ENDS, reword
 from .sdjob import IS_VERSION_2, PREFIX
 
 if IS_VERSION_2:
@@ -19,7 +19,6 @@ if IS_VERSION_2:
 else:
     from octoprint.util.comm import SDFileData
 
-LIST_BEGINS, LIST_ENDS = "Begin file list", "End file list"
 LOOKED_AT = BEGINNINGS | {LIST_BEGINS[:2]}
 """The first two characters of lines that are looked at more closely."""
 
@@ -65,6 +64,11 @@ class SdCard:
         self._opening = None
         self._has_asked = False
         self._looked_at = LOOKED_AT - {POSITION}
+        self._review()
+
+    def _review(self):
+        self.is_talking = self._listed is not None or bool(self._says)
+        """Whether the next line may have to be another, whatever it is."""
 
     @property
     def _index(self):
@@ -84,6 +88,7 @@ class SdCard:
             # ASCII, and the encoding is used for lines that go out and for nothing else
             comm._serial_encoding = "utf-8"
         self._says.append(LONG_NAMES)
+        self._review()
 
     ##~~ commands
 
@@ -113,6 +118,11 @@ class SdCard:
 
     def reword(self, line):
         """Return a line, other than an ok, in words that OctoPrint knows."""
+        worded = self._worded(line)
+        self._review()
+        return worded
+
+    def _worded(self, line):
         says = self._says
         if line[:2] not in self._looked_at and self._listed is None and not says:
             return line
@@ -135,8 +145,11 @@ class SdCard:
 
     def fill(self):
         """Return a line in the place of one that was the plugin's."""
-        says = self._says
-        return says.popleft() if says else SWALLOWED
+        if not self._says:
+            return SWALLOWED
+        said = self._says.popleft()
+        self._review()
+        return said
 
     def _situation(self, comm):
         index = self._index
@@ -204,6 +217,7 @@ class SdCard:
             self._refresh(comm, index)
         if not self._says:
             self._says.extend(self._job.news(comm, self._index))
+            self._review()
 
     def _refresh(self, comm, index):
         """Let OctoPrint ask for the list, which it does only while nothing is printed."""

@@ -21,10 +21,6 @@ class UploadRefusal:
     def __init__(self, is_rrf):
         self._is_rrf = is_rrf
 
-    def handlers(self, plugin, *args, **kwargs):
-        """Return what is to look at each request of the API first (OctoPrint's hook)."""
-        return [self.refuse]
-
     def refuse(self):
         """Return an answer for an upload to the printer, ``None`` for every other request."""
         request = flask.request

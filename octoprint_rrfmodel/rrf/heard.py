@@ -17,6 +17,7 @@ WORDS = (
     ("fault", r"Filament error on"),
     ("fault", r"^Emergency Stop!"),  # 3.5 GCodes2.cpp, M112
     ("fault", r"VIN under-voltage"),  # 3.5 Platform.cpp:1396
+    ("card", r"^Error: .*M20: "),  # the list of a folder was refused, as by a halted board
     ("silence", r"\A\Z"),  # what a host reads when its patience is over, as after a lost ok
 )
 """What is told, and a pattern of a line that tells it."""
@@ -28,6 +29,6 @@ _KINDS = [(kind, re.compile(pattern)) for kind, pattern in WORDS]
 
 
 def heard(line: str) -> str | None:
-    """Return what a line tells: ``reset``, ``box``, ``fault``, ``silence``;
+    """Return what a line tells: ``reset``, ``box``, ``fault``, ``card``, ``silence``;
     ``None`` for most lines."""
     return next((kind for kind, pattern in _KINDS if pattern.search(line)), None)

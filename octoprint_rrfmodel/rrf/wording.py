@@ -123,6 +123,9 @@ ROWS = (
     ),
 )
 
+LIST_BEGINS, LIST_ENDS = "Begin file list", "End file list"
+"""Around the names in the answer to a plain M20."""
+
 BEGINNINGS = frozenset(row.begins for row in ROWS)
 """The first two characters of all lines that a row may be about: a look at them costs little."""
 

@@ -44,8 +44,7 @@ def measure() -> None:
     bridge = CommBridge(
         notify=lambda *note: None,
         translate=card.translate,
-        reword=card.reword,
-        fill=card.fill,
+        card=card,
         show_target=lambda *target: None,
         drops=lambda *command: False,
         guards=lambda error: False,

@@ -18,6 +18,7 @@ LINES = [
     ("Filament error on extruder 0: noFilament\n", "fault"),
     ("Emergency Stop! Reset the controller to continue.\n", "fault"),
     ("Warning: VIN under-voltage event (11.0V)ok\n", "fault"),
+    ("Error: M20: Machine is halted\n", "card"),
     ("RepRapFirmware for Duet 2 WiFi/Ethernet version 3.5.3\n", None),
     ("Error: G0/G1: insufficient axes homed\n", None),
     ("Done printing file\n", None),

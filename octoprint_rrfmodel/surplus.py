@@ -1,0 +1,33 @@
+"""The ``ok`` too many that a line of several commands brings when a move on it fails.
+
+The last command on the line has been read already when the move before it fails, and it is
+acknowledged too, in the very next line (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80).
+"""
+
+SEVERAL = "M120"
+"""What each line of several commands begins with; a failing move on one is followed by M121."""
+
+
+class SurplusOk:
+    """Watches for that ``ok``, so that OctoPrint doesn't count it."""
+
+    def __init__(self):
+        self.awaits = None
+        """``error``, ``ok`` or ``surplus``: what decides next; ``None`` where nothing may come."""
+
+    def sending(self, gcode):
+        """Note that a command goes out."""
+        if self.awaits != "surplus":
+            self.awaits = "error" if gcode == SEVERAL else None
+
+    def is_in(self, line):
+        """Return whether a line is the ``ok`` too many; call it with each one while it awaits."""
+        awaits = self.awaits
+        if awaits == "surplus":
+            self.awaits = None
+            return line.strip() == "ok"
+        if line.startswith("ok"):
+            self.awaits = "surplus" if awaits == "ok" else None
+        elif awaits == "error" and line.startswith("Error:"):
+            self.awaits = "ok"
+        return False
