@@ -13,7 +13,14 @@ from .live import LiveReader
 from .merge import NestedTooDeep
 from .poll import ModelPlan, Update
 from .poll408 import StatusPlan
-from .reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode
+from .reply import (
+    MalformedReply,
+    ModelReply,
+    NoBuffers,
+    StatusReply,
+    decode,
+    foreign_strings,
+)
 from .request import LIVE_FLAGS, ModelRequest, Request
 from .store import ModelStore
 
@@ -47,6 +54,7 @@ class Follower:
         self._plan: ModelPlan | StatusPlan = ModelPlan()
         self._reader = LiveReader()
         self._unanswered = 0
+        self._unconfirmed: dict[Request, tuple[str, ...]] = {}
 
     @property
     def ready(self) -> bool:
@@ -96,12 +104,27 @@ class Follower:
             self._reader.forget()
             self._failed()
             raise MalformedReply(str(error)) from None
+        self._confirm(request, foreign_strings(text))
         if self._plan.observe(self.store.model):
             self.resets += 1
             self.store.forget()
             self._reader.forget()
             return Taken(changes, True)
         return Taken(changes, False)
+
+    def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
+        """Ask for a key again until its letters beyond ASCII come twice the same.
+
+        Lines have no checksum here, and a broken byte in a name is still a name: what is read
+        once may be wrong for good, since nothing but a change makes the key be asked for again.
+        """
+        if not isinstance(request, ModelRequest) or not request.key:
+            return
+        if not strings or self._unconfirmed.get(request) == strings:
+            self._unconfirmed.pop(request, None)
+        else:
+            self._unconfirmed[request] = strings
+            self._plan.refetch(request.key.partition(".")[0])
 
     def timed_out(self) -> None:
         """Note that ``next_request`` was sent and nothing came."""

@@ -30,7 +30,8 @@ class LiveReader:
         ``None`` where the text isn't built like the one before, or is broken: a full decoding
         finds out which, and ``remember`` must follow it.
         """
-        changed = self._compared(text) if self._head and text.startswith(self._head) else None
+        comparable = self._head and text.isascii() and text.startswith(self._head)
+        changed = self._compared(text) if comparable else None
         if changed is None:
             self.forget()
         return changed

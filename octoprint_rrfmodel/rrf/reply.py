@@ -42,6 +42,13 @@ _HUGE = re.compile(r"[0-9](?:[eE]\+?[0-9]{3}|[0-9]{300})")
 """An exponent, or digits, that may leave the range of a float."""
 
 
+_FOREIGN = re.compile(r'"[^"]*[^"\x00-\x7f][^"]*"')
+"""A string with a letter beyond ASCII: a name that somebody gave, or a broken byte."""
+
+_FOREIGN_NAME = re.compile(r'[{,]"[^"\\:]*[^"\\:\x00-\x7f][^"\\:]*":')
+"""A member's name with such a letter: the firmware's own names have none."""
+
+
 def _finite(text: str) -> float | None:
     value = float(text)
     return value if math.isfinite(value) else None
@@ -66,6 +73,8 @@ def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
     """
     if text == NO_BUFFERS:
         return NoBuffers()
+    if not text.isascii() and _FOREIGN_NAME.search(text):
+        raise MalformedReply(f"a member with a broken name: {text[:80]!r}")
     members = _members(text)
     if not text.startswith(MODEL_REPLY):
         return StatusReply(members)
@@ -79,6 +88,11 @@ def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
     ):
         raise MalformedReply(f"no envelope of an M409 reply: {text[:80]!r}")
     return ModelReply(key, flags, members["result"], start)
+
+
+def foreign_strings(text: str) -> tuple[str, ...]:
+    """Return the strings of a reply that hold letters beyond ASCII; most replies have none."""
+    return () if text.isascii() else tuple(_FOREIGN.findall(text))
 
 
 def _members(text: str) -> dict[str, Any]:

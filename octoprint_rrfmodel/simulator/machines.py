@@ -188,8 +188,10 @@ MACHINES: dict[str, Machine] = {
         kinematics=cartesian(4, "coreXY"),
         heaters=lambda: [bed(0)] + [hotend(sensor) for sensor in (1, 2, 3, 4)],
         beds=(0,),
-        sensors=lambda: [parts.thermistor("bed", "temp0")]
-        + [parts.thermistor("", f"2{index}.temp0") for index in range(4)],
+        sensors=lambda: (
+            [parts.thermistor("bed", "temp0")]
+            + [parts.thermistor("", f"2{index}.temp0") for index in range(4)]
+        ),
         fans=lambda: [parts.fan(f"Tool {index}") for index in range(4)],
         extruders=4,
         tools=_changer_tools,

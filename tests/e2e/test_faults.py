@@ -127,27 +127,13 @@ EXPECTED = {
 """Fault → what is to be seen of it."""
 
 
-OPEN = {
-    "bad_utf8": pytest.mark.xfail(
-        strict=False,
-        reason="OctoPrint reads such a line as Latin-1, so that a text or a name in a reply may"
-        " have changed and still be JSON; nothing asks for that key again",
-    )
-}
-"""Faults that the plugin doesn't get over yet."""
-
-
 def test_every_fault_has_an_expectation():
     assert set(EXPECTED) == set(FAULTS)
 
 
 @pytest.mark.parametrize(
     "name",
-    [
-        pytest.param(name, marks=OPEN.get(name, ()))
-        for name, expected in sorted(EXPECTED.items())
-        if expected
-    ],
+    [name for name, expected in sorted(EXPECTED.items()) if expected],
 )
 def test_fault(server, board_factory, name):
     expected = EXPECTED[name]

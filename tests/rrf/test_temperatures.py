@@ -161,9 +161,7 @@ NAMES = st.sampled_from(
 )
 MODELS = st.recursive(
     ANY_JSON | st.integers(-1, 3),
-    lambda children: (
-        st.lists(children, max_size=3) | st.dictionaries(NAMES, children, max_size=5)
-    ),
+    lambda children: st.lists(children, max_size=3) | st.dictionaries(NAMES, children, max_size=5),
     max_leaves=15,
 )
 
