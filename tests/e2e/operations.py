@@ -33,7 +33,11 @@ class Machine:
         assert response.status_code == wanted, response.text
         self.settle()
         lines = [helpers.NUMBERED.match(line)["command"] for line in self.board.received()[before:]]
-        return [line for line in lines if line and line.split()[0] not in ("M105", "M409", "M408")]
+        return [
+            line
+            for line in lines
+            if line and line.split()[0] not in ("M105", "M409", "M408", "M20")
+        ]
 
     def settle(self):
         """Return once the board has done all and the model says what has become of it."""
