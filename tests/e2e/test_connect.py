@@ -32,7 +32,9 @@ def assert_sane(state, protocol):
     assert state["resets"] == 0
     assert state["revision"] > 0
     # OctoPrint's settings and the profile of the bench are those of a new OctoPrint
-    assert [found for found in state["warnings"] if not found["fix"].startswith("fix_")] == []
+    assert [
+        found for found in state["warnings"] if not found.get("fix", "").startswith("fix_")
+    ] == []
     counters = state["counters"]
     assert counters["polls"] >= counters["replies"] > 10 or protocol == "M408"
     assert counters["bytes"] > 3000

@@ -71,8 +71,11 @@ def test_channel_stuck_by_a_message_box(server, board_factory):
     board = board_factory(firmware="3.5.3")
     helpers.connect(server, board)
     board.board.inject("usb_box_stuck")
+    # the plugin doesn't let such a command out unless it is told to
+    server.set_setting("plugins.rrfmodel.operations.message_box", False)
     server.commands('M291 P"Continue?" S2')
     server.wait_for(lambda: helpers.status(server)["stale"], 30, "the data to be stale")
+    server.set_setting("plugins.rrfmodel.operations.message_box", True)
     assert server.state().startswith("Operational")
     board.board.clear("usb_box_stuck")
     board.board.reset()

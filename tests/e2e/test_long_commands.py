@@ -34,7 +34,7 @@ def home(server):
 @pytest.mark.parametrize(
     "start, command",
     [
-        pytest.param(home, "G28 X0 Y0", id="home"),
+        pytest.param(home, "G28 X Y", id="home"),
         pytest.param(lambda server: server.commands("T3"), "T3", id="tool"),
         pytest.param(lambda server: server.commands("T-1"), "T-1", id="no-tool"),
         pytest.param(

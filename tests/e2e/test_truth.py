@@ -275,7 +275,9 @@ def test_heater_fault(server, board_factory, firmware):
 
     def warnings():
         found = helpers.status(server)["warnings"]
-        return {entry["code"]: entry["text"] for entry in found if "fix_" not in entry["fix"]}
+        return {
+            entry["code"]: entry["text"] for entry in found if "fix_" not in entry.get("fix", "")
+        }
 
     server.wait_for(lambda: "heater_fault_0" in warnings(), 10, "the warning")
     assert "0" in warnings()["heater_fault_0"]
@@ -293,7 +295,7 @@ def test_halted(server, board_factory):
 
     def codes():
         found = helpers.status(server)["warnings"]
-        return [entry["code"] for entry in found if "fix_" not in entry["fix"]]
+        return [entry["code"] for entry in found if "fix_" not in entry.get("fix", "")]
 
     server.wait_for(lambda: codes() == ["halted"], 10, "the warning")
     assert helpers.value(server, "state.status") == "halted"
