@@ -214,7 +214,7 @@ class CommBridge:
         if gcode is None and cmd.startswith("T"):
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
         self._awaited = gcode
-        self._surplus.sending(gcode)
+        self._surplus.sending(cmd, gcode)
         if self._targets and cmd in self._targets:
             self._show_target(*self._targets.pop(cmd))
         if gcode in ("T", "M109"):

@@ -4,8 +4,8 @@ The last command on the line has been read already when the move before it fails
 acknowledged too, in the very next line (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80).
 """
 
-SEVERAL = "M120"
-"""What each line of several commands begins with; a failing move on one is followed by M121."""
+BLAMED = ("M121", "G0/G1")
+"""What the error of such a move names: the command behind it from 3.5 on, before that the move."""
 
 
 class SurplusOk:
@@ -15,10 +15,10 @@ class SurplusOk:
         self.awaits = None
         """``error``, ``ok`` or ``surplus``: what decides next; ``None`` where nothing may come."""
 
-    def sending(self, gcode):
-        """Note that a command goes out."""
+    def sending(self, cmd, gcode):
+        """Note that a command goes out; only a move with M121 behind it may bring one."""
         if self.awaits != "surplus":
-            self.awaits = "error" if gcode == SEVERAL else None
+            self.awaits = "error" if gcode == "M120" and " G1 " in cmd else None
 
     def is_in(self, line):
         """Return whether a line is the ``ok`` too many; call it with each one while it awaits."""
@@ -28,6 +28,6 @@ class SurplusOk:
             return line.strip() == "ok"
         if line.startswith("ok"):
             self.awaits = "surplus" if awaits == "ok" else None
-        elif awaits == "error" and line.startswith("Error:"):
+        elif line.startswith("Error:") and any(blamed in line for blamed in BLAMED):
             self.awaits = "ok"
         return False

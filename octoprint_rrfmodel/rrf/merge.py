@@ -94,6 +94,7 @@ def _merged_object(old: dict[str, Any], new: dict[str, Any], keep: bool, levels:
     return {name: values[name] for name in new}, changes
 
 
+# the same loop as above over indexes: one for both would cost a call for each value
 def _merged_list(old: list[Any], new: list[Any], keep: bool, levels: int) -> Merged:
     if levels <= 0:
         raise NestedTooDeep("lists nested deeper than any model")
