@@ -82,7 +82,6 @@ class CommBridge:
         self._comm = None
         self._is_rrf = False
         self._awaited = None
-        self._polled = set()
         self._targets = {}
         self._surplus = SurplusOk()
         self.expects_refusal = False
@@ -250,8 +249,12 @@ class CommBridge:
     ##~~ what others ask
 
     def has_polled(self, command):
-        """Return whether a command was one of the polls of this connection."""
+        """Return whether a command was a poll; also of earlier connections, for their log."""
         return command in self._polled
+
+    def has_polled_at_all(self):
+        """Return whether there is anything of the plugin's in OctoPrint's log."""
+        return bool(self._polled)
 
     def blocked(self):
         """Return why no poll may go out, ``None`` where one may."""

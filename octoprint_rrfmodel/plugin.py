@@ -109,7 +109,8 @@ class RrfModelPlugin(
         self._push = ModelPush(self._tell_pages, self._model, self._status, clock)
         self._api = ModelApi(self._model, self._status)
         self.terminal = TerminalFilter(
-            lambda: self._settings.get_boolean(["hide_polls"]), self.bridge.has_polled
+            lambda: self.bridge.has_polled_at_all() and self._settings.get_boolean(["hide_polls"]),
+            self.bridge.has_polled,
         )
         self.simulated_port = SimulatedPort(lambda: self._settings.get(["simulator"], merged=True))
 
