@@ -20,6 +20,9 @@ RETURN_SECONDS = 90.0
 CONNECT_SECONDS = 35.0
 """Time that one attempt to connect may take; OctoPrint gives up by itself before."""
 
+GONE_SECONDS = 1.0
+"""How long a connection has to be closed to have failed: OctoPrint 2.0's starts as a closed one."""
+
 LOOK_SECONDS = 0.1
 
 
@@ -46,6 +49,7 @@ class Recovery:
         self._is_busy = is_busy
         self._failed = failed
         self._last = None
+        self._is_connected = threading.Event()
         self._lock = threading.Lock()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.recovery")
         self.is_wanted = False
@@ -53,6 +57,7 @@ class Recovery:
 
     def connected(self):
         """Note what OctoPrint is connected with; the board tells by itself if it is halted."""
+        self._is_connected.set()
         comm = self._comm()
         if comm is not None:
             self._last = Connection(*comm.getConnection(), self._profile())
@@ -123,16 +128,27 @@ class Recovery:
 
     def _connects(self, last):
         printer = self._printer()
+        self._is_connected.clear()
         try:
             printer.connect(port=last.port, baudrate=last.baudrate, profile=last.profile)
         except Exception as error:
             # a port that has just appeared may not be ready
             self._logger.info("Could not connect: %s", error)
             return False
-        _wait_until(
-            lambda: printer.is_operational() or printer.is_closed_or_error(), CONNECT_SECONDS
-        )
-        return printer.is_operational()
+        deadline = time.monotonic() + CONNECT_SECONDS
+        closed_since = None
+        # the event stays when somebody disconnects at once: that is not to be undone
+        while not self._is_connected.wait(LOOK_SECONDS):
+            now = time.monotonic()
+            if not printer.is_closed_or_error():
+                closed_since = None
+            elif closed_since is None:
+                closed_since = now
+            elif now - closed_since > GONE_SECONDS:
+                return False
+            if now > deadline:
+                return False
+        return True
 
     def _close(self):
         """Close the connection; after an error OctoPrint 2.0 holds on to one that is dead."""
