@@ -1,0 +1,124 @@
+"""Which objects there are, what is asked of them, and what has changed since."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import config, fans, heat, host, job, motion, sensors
+from .values import finite
+from .view import ABSENT, Row, View, family
+from .world import World
+
+OBJECTS: tuple[Row, ...] = (
+    *host.ROWS,
+    *config.ROWS,
+    *motion.ROWS,
+    *job.ROWS,
+    *heat.ROWS,
+    *fans.ROWS,
+    *sensors.ROWS,
+)
+"""Every kind of object. Adding one is adding a row to the table of its module."""
+
+_FAMILIES: dict[str, list[Row]] = {}
+for _row in OBJECTS:
+    _FAMILIES.setdefault(_row.family, []).append(_row)
+
+Wanted = Mapping[str, "Sequence[str] | None"]
+"""Objects and the fields wanted of each; ``None`` and an empty one are all of them."""
+
+
+def seen(world: World) -> View:
+    """Return the view of a world with all objects."""
+    return View(world, OBJECTS)
+
+
+def names(world: World) -> list[str]:
+    """Return the names of the objects that the machine has, as ``objects/list`` gives them."""
+    return list(seen(world).objects)
+
+
+def status(world: World, wanted: Wanted) -> dict[str, dict[str, Any]]:
+    """Return the fields wanted of each object, whatever the model holds.
+
+    An object that isn't there is ``{}``, a field that isn't ``None``. Every value is one that JSON
+    has. Only what is wanted is computed.
+    """
+    view = seen(world)
+    known: dict[str, Mapping[str, Any]] = {}
+    result = {}
+    for name, fields in wanted.items():
+        row, thing = _found(view, known, name)
+        result[name] = {} if row is None else _values(view, row, thing, fields)
+    return result
+
+
+def _found(view: View, known: dict[str, Mapping[str, Any]], name: str) -> tuple[Row | None, Any]:
+    for row in _FAMILIES.get(family(name), ()):
+        if row.name not in known:
+            known[row.name] = row.things(view)
+        if name in known[row.name]:
+            return row, known[row.name][name]
+    return None, None
+
+
+def _values(view: View, row: Row, thing: Any, fields: Sequence[str] | None) -> dict[str, Any]:
+    members = row.members(thing)
+    result = {}
+    for name in fields or [*row.fields, *members]:
+        field = row.fields.get(name)
+        value = members.get(name) if field is None else field(view, thing)
+        if value is not ABSENT:
+            result[name] = finite(value)
+        elif fields:
+            result[name] = None
+    return result
+
+
+def difference(
+    last: Mapping[str, Mapping[str, Any]], now: Mapping[str, Mapping[str, Any]]
+) -> dict[str, dict[str, Any]]:
+    """Return the fields of ``now`` that are other than in ``last``, each as a whole.
+
+    A field that is gone is ``None``. Objects without changes are left out.
+    """
+    result = {}
+    for name, fields in now.items():
+        before = last.get(name, {})
+        changed = {
+            field: value
+            for field, value in fields.items()
+            if field not in before or _differs(before[field], value)
+        }
+        changed.update((field, None) for field in before if field not in fields)
+        if changed:
+            result[name] = changed
+    return result
+
+
+def _differs(old: Any, new: Any) -> bool:
+    # true is not 1 in JSON
+    return bool(old != new) or isinstance(old, bool) is not isinstance(new, bool)
+
+
+def wanted_of(objects: Any) -> dict[str, tuple[str, ...] | None]:
+    """Return what a request's ``objects`` ask for.
+
+    Raises ``ValueError`` with a sentence for anything but names, each with null or a list of
+    texts.
+    """
+    if not isinstance(objects, Mapping):
+        raise ValueError("objects has to hold names of objects, each with null or a list of fields")
+    wanted: dict[str, tuple[str, ...] | None] = {}
+    for name, fields in objects.items():
+        if not isinstance(name, str):
+            raise ValueError(f"the name of an object has to be a text, {name!r} is none")
+        if fields is not None and not _are_texts(fields):
+            raise ValueError(f"the fields of {name!r} have to be null or a list of names")
+        wanted[name] = tuple(fields) if fields else None
+    return wanted
+
+
+def _are_texts(fields: Any) -> bool:
+    return isinstance(fields, (list, tuple)) and all(isinstance(field, str) for field in fields)
