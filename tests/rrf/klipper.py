@@ -3,6 +3,7 @@
 import copy
 import functools
 import re
+from pathlib import Path
 
 from octoprint_rrfmodel.rrf.follower import Follower
 from octoprint_rrfmodel.rrf.klipper import Accumulated, Host, HostJob, Kept, World, status
@@ -14,6 +15,8 @@ from octoprint_rrfmodel.simulator.machines import MACHINES
 MODELS = [(machine, firmware) for machine in MACHINES for firmware in VERSIONS]
 
 HOST = Host(is_connected=True, is_ready=True, has_protocol=True, job=None)
+
+ROOT = Path(__file__).resolve().parents[2]
 
 STEP = re.compile(r"([^.\[\]]+)|\[([0-9]+)\]")
 

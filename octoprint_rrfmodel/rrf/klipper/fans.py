@@ -52,7 +52,7 @@ def _kind(view: Printer, index: int, fan: Model) -> str:
         # M408 tells as a bitmap which fans nothing rules
         free = whole(mapping(view.model.get("m408")).get("controllableFans"))
         return "fan_generic" if free is None or free >> index & 1 else "heater_fan"
-    is_electronics = all(sensor.get("type") in ELECTRONICS for sensor in sensors)
+    is_electronics = all(text(sensor.get("type")) in ELECTRONICS for sensor in sensors)
     return "controller_fan" if is_electronics else "heater_fan"
 
 

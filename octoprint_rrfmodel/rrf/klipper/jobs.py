@@ -80,6 +80,7 @@ def lost(job: Job) -> Job:
 
 def told(job: Job, line: str) -> Job:
     """Return a job after the printer has said a line."""
+    line = line.strip()
     if job.runs and line.startswith("Error:"):
         job = job._replace(error=line)
     if ENDING_WORD in line:

@@ -108,12 +108,14 @@ class Printer:
             for number, tool in Machine(self.model).tools.items()
             if whole(number) is not None
         }
-        # only M408 S0 to S2 tell heaters without that limit, and without tools
-        if tools or "coldExtrudeTemperature" in self.heat:
+        if tools or "seqs" in self.model or "coldExtrudeTemperature" in self.heat:
             return tools
+        # only M408 S0 to S2 are left, which tell heaters and at most how many each tool has
         slots = array(self.heat.get("bedHeaters")) + array(self.heat.get("chamberHeaters"))
         heaters = array(self.heat.get("heaters"))
         free = [h for h, heater in enumerate(heaters) if mapping(heater) and h not in slots]
+        if told := array(self.model.get("tools")):
+            free = free[: sum(len(array(mapping(tool).get("active"))) for tool in told)]
         return {
             place: {"number": place, "heaters": [heater], "extruders": [place]}
             for place, heater in enumerate(free)
@@ -152,11 +154,13 @@ class Printer:
 
         Without the extrusion factor where that is told, as Klipper counts filament.
         """
-        drives = [mapping(drive) for drive in array(self.move.get("extruders"))]
-        raw = [number(drive.get("rawPosition")) for drive in drives]
-        return tuple(
-            number(drive.get("position")) if fed is None else fed for drive, fed in zip(drives, raw)
-        )
+        # M408 tells raw positions only while the card prints, and old ones stay in the model
+        names = ("position",) if "m408" in self.model else ("rawPosition", "position")
+        fed = []
+        for drive in map(mapping, array(self.move.get("extruders"))):
+            known = [number(drive.get(name)) for name in names]
+            fed.append(next((value for value in known if value is not None), None))
+        return tuple(fed)
 
     @cached_property
     def analog(self) -> dict[str, Model]:

@@ -44,7 +44,7 @@ def _motion_monitors(view: Printer) -> dict[str, Model]:
     return {
         name: monitor
         for name, monitor in _monitors(view).items()
-        if monitor.get("type") in SEE_MOTION
+        if text(monitor.get("type")) in SEE_MOTION
     }
 
 

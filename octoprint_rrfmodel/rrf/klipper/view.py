@@ -13,8 +13,6 @@ from .world import Accumulated, Job, World
 ABSENT: Any = object()
 """What a field gives that this machine has not: left out of all fields, ``None`` when asked for."""
 
-ALWAYS: Mapping[str, Any] = {}
-
 
 class View(Printer):
     """A world, with the answers that more than one field needs; computed when first asked."""
