@@ -28,6 +28,9 @@ COVERS_A_JOB = frozenset(("busy", "changingTool", "off"))
 AFTER_A_CANCEL = frozenset(("busy", "changingTool", "idle"))
 """Values that follow ``paused`` when the job was cancelled; 3.4 shows no ``cancelling`` then."""
 
+HOST_PHASES = {"printing": PRINTING, "paused": PAUSED}
+"""States of a host's print that is not over."""
+
 STATES = {PRINTING: "printing", CANCELLING: "printing", PAUSED: "paused"}
 """``print_stats.state`` of each phase."""
 
@@ -197,47 +200,55 @@ def _host(
     runs = job.runs and job.source == HOST
     if own is None:
         return _ended(job, "complete" if job.progress >= FINISHED else "error") if runs else job
-    phase = {"printing": PRINTING, "paused": PAUSED}.get(own.state, ENDED)
-    if phase != ENDED:
-        went_back = own.print_time is not None and own.print_time < job.duration - ROUNDING
-        if not runs or job.path != own.name or went_back:
-            job = Job(HOST, path=own.name, highest=before or extruded)
-        elif job.phase == PAUSED:
-            job = job._replace(pauses=job.pauses + max(0.0, seconds))
-        fed, highest = _fed(job.highest, extruded)
-        job = job._replace(phase=phase, state=STATES[phase], position=own.position)
-        job = job._replace(filament=job.filament + fed, highest=highest)
+    if own.state in HOST_PHASES:
+        job = _streamed(job, own, extruded, before, seconds)
     elif job.source == CARD:
         # the last print was the card's; what the host still tells is of one before it
         return job
     else:
-        if job.source != HOST or job.path != own.name:
-            job = Job(HOST, path=own.name)
-        if job.runs:
-            fed, highest = _fed(job.highest, extruded)
-            job = job._replace(filament=job.filament + fed, highest=highest)
-        # a host that has ended a print may have wound its file back
-        position = own.size if own.state == "complete" and own.size else own.position
-        job = job._replace(position=max(job.position, position))
-        job = _ended(job, own.state if own.state in ENDED_STATES else "error", own.message)
+        job = _over(job, own, extruded)
     return job._replace(
         size=own.size or 0,
         duration=job.duration if own.print_time is None else max(0.0, own.print_time),
     )
 
 
-def _fed(
-    highest: tuple[float | None, ...], extruded: tuple[float | None, ...]
-) -> tuple[float, tuple[float | None, ...]]:
-    """Return how much filament went beyond the furthest positions, and those positions now.
+def _streamed(
+    job: Job,
+    own: HostJob,
+    extruded: tuple[float | None, ...],
+    before: tuple[float | None, ...],
+    seconds: float,
+) -> Job:
+    is_same = job.runs and job.source == HOST and job.path == own.name
+    went_back = own.print_time is not None and own.print_time < job.duration - ROUNDING
+    if not is_same or went_back:
+        job = Job(HOST, path=own.name, highest=before or extruded)
+    elif job.phase == PAUSED:
+        job = job._replace(pauses=job.pauses + max(0.0, seconds))
+    phase = HOST_PHASES[own.state]
+    job = job._replace(phase=phase, state=STATES[phase], position=own.position)
+    return _counted(job, extruded)
 
-    What is retracted and fed again counts once.
-    """
+
+def _over(job: Job, own: HostJob, extruded: tuple[float | None, ...]) -> Job:
+    if job.source != HOST or job.path != own.name:
+        job = Job(HOST, path=own.name)
+    if job.runs:
+        job = _counted(job, extruded)
+    # a host that has ended a print may have wound its file back
+    position = own.size if own.state == "complete" and own.size else own.position
+    job = job._replace(position=max(job.position, position))
+    return _ended(job, own.state if own.state in ENDED_STATES else "error", own.message)
+
+
+def _counted(job: Job, extruded: tuple[float | None, ...]) -> Job:
+    """Count what went beyond the furthest positions: what is retracted and fed again, once."""
     fed = 0.0
-    now = list(highest) + [None] * (len(extruded) - len(highest))
+    highest = list(job.highest) + [None] * (len(extruded) - len(job.highest))
     for drive, position in enumerate(extruded):
-        furthest = now[drive]
+        furthest = highest[drive]
         if position is not None and (furthest is None or position > furthest):
             fed += 0.0 if furthest is None else position - furthest
-            now[drive] = position
-    return fed, tuple(now)
+            highest[drive] = position
+    return job._replace(filament=job.filament + fed, highest=tuple(highest))
