@@ -9,6 +9,11 @@ PRINTING = ("processing", "pausing", "paused", "resuming", "cancelling")
 """Values of ``state.status`` while a job is there (3.5 RepRap.cpp:2391); not of a simulation."""
 
 
+WITHOUT_JOB = ("starting", "halted", "simulating", "changingTool", "busy", "idle")
+"""Values of ``state.status`` that say that none is there: each that a job has comes before
+``changingTool`` (3.5 RepRap.cpp:2391). Not among them: ``off``, which a job may outlast."""
+
+
 class CardJob(NamedTuple):
     """The file being printed, paused or about to end; all empty where there is none."""
 
@@ -46,6 +51,34 @@ def card_job(model: Mapping[str, Any]) -> CardJob:
         _count(file.get("size")),
         _count(job.get("filePosition")),
     )
+
+
+def progress(model: Mapping[str, Any]) -> float | None:
+    """Return how much of the file was read, 0 to 1; ``None`` where no size is known.
+
+    ``M408`` tells no size but the part itself: percent in S4, a fraction in S0 and S1 (3.5
+    RepRap.cpp:1131-1856).
+    """
+    job = _object(model.get("job"))
+    size: Any = _object(job.get("file")).get("size")
+    position: Any = job.get("filePosition")
+    if _is_number(size) and _is_number(position) and size > 0:
+        return _part(position / size)
+    legacy = _object(model.get("m408"))
+    percent: Any = legacy.get("fractionPrinted")
+    fraction: Any = legacy.get("fraction_printed")
+    if _is_number(percent):
+        return _part(percent / 100)
+    return _part(fraction) if _is_number(fraction) else None
+
+
+def _is_number(value: Any) -> bool:
+    """Return whether it can be calculated with; an integer too long for that is none."""
+    return type(value) in (int, float) and abs(value) < 1e18
+
+
+def _part(value: float) -> float:
+    return min(max(value, 0.0), 1.0)
 
 
 def _object(value: Any) -> Mapping[str, Any]:

@@ -16,7 +16,7 @@ BAD_READING = 1999.0
 RESERVED = re.compile(r"B\d*|C\d*|T\d*")
 """Names that a temperature report gives to beds, chambers and tools."""
 
-_TARGET_OF_STATE = {"active": "active", "tuning": "active", "standby": "standby"}
+TARGET_OF_STATE = {"active": "active", "tuning": "active", "standby": "standby"}
 
 
 class Temperatures(NamedTuple):
@@ -67,7 +67,7 @@ def _heater(heaters: list[Any], index: Any) -> Temperature | None:
     heater = _object(heaters[index])
     if "current" not in heater:
         return None
-    target = heater.get(_TARGET_OF_STATE.get(str(heater.get("state")), ""), 0.0)
+    target = heater.get(TARGET_OF_STATE.get(str(heater.get("state")), ""), 0.0)
     # a target of -273.15 is one that was never set, or that switched the heater off
     if not isinstance(target, (int, float)) or target < 0:
         target = 0.0
