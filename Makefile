@@ -1,5 +1,6 @@
 # Everything a developer or a CI machine runs. `make test` needs python3 (3.9 to 3.13), a C compiler
-# (one dependency of OctoPrint 1.11 comes as source) and, for the browser tests, Debian's chromium.
+# (one dependency of OctoPrint 1.11 comes as source), Debian's chromium for the browser tests and
+# mosquitto for those of MQTT.
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9

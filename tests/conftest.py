@@ -11,6 +11,7 @@ from pathlib import Path
 import hypothesis
 import pytest
 
+from tests.support import broker as mqtt
 from tests.support import browser as chromium
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -148,6 +149,17 @@ def module_board_factory(ports_dir):
     """``board_factory`` for boards that all tests of a module share."""
     with _boards(ports_dir) as start:
         yield start
+
+
+@pytest.fixture
+def broker(tmp_path):
+    """A running MQTT broker of the test's own."""
+    if mqtt.mosquitto() is None:
+        message = "no MQTT broker: install Debian's mosquitto"
+        # on a CI machine nobody reads about a skipped test
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
+    with mqtt.Broker(tmp_path) as broker:
+        yield broker
 
 
 @pytest.fixture(scope="session")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from importlib.metadata import version as distribution_version
@@ -30,8 +31,9 @@ class OctoPrintServer:
 
     ``ports_glob`` is where the server looks for serial ports besides the machine's own; ``python``
     is the interpreter that has OctoPrint ``version``, by default the one that runs the tests. The
-    first of ``users`` is the one in whose name the methods act. The other options are those of
-    ``basedir.configuration`` and ``basedir.write_basedir``.
+    first of ``users`` is the one in whose name the methods act. ``plugin_files`` are plugins of one
+    file each, known by its name. The other options are those of ``basedir.configuration`` and
+    ``basedir.write_basedir``.
     """
 
     def __init__(
@@ -46,6 +48,7 @@ class OctoPrintServer:
         profile: dict[str, Any] | None = None,
         environment: dict[str, str] | None = None,
         users: tuple[User, ...] = USERS,
+        plugin_files: tuple[Path, ...] = (),
         port: int | None = None,
         python: str = sys.executable,
         version: str | None = None,
@@ -69,6 +72,9 @@ class OctoPrintServer:
             settings=settings,
         )
         write_basedir(basedir, config, users=users, profile=profile)
+        for path in plugin_files:
+            (basedir / "plugins").mkdir(exist_ok=True)
+            shutil.copy(path, basedir / "plugins")
 
     # life cycle
 
