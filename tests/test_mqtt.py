@@ -1,10 +1,8 @@
-"""What a real broker is told: topics, payloads, how often, and when the broker or the printer fails."""
+"""What a real broker is told: topics, payloads, how often, and when broker or printer fail."""
 
 import logging
 
 import pytest
-
-pytest.importorskip("octoprint", reason="needs an environment with OctoPrint")
 
 from octoprint_rrfmodel.mqtt import SHORTEST_SECONDS, MqttPublisher, mqtt_publish, topic_of
 from tests.support.broker import Subscriber

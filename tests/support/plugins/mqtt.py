@@ -1,4 +1,4 @@
-"""Stands in for OctoPrint-MQTT, which is on no package index: the same helper over the same library.
+"""Stands in for OctoPrint-MQTT, which is on no package index: the same helper, the same library.
 
 The broker is the one at ``plugins.mqtt.broker.port`` of the loopback address.
 """
