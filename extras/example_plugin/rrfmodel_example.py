@@ -49,7 +49,7 @@ class RrfModelExample(
     ##~~ what RepRapFirmware Model calls
 
     def _on_heaters(self, path, new, old):
-        """Look at the heaters: called after each change of one of them, ``None`` without a model."""
+        """Look at the heaters after each change of one of them; ``None`` without a model."""
         is_faulty = any(heater and heater["state"] == "fault" for heater in new or ())
         if is_faulty != self._is_lit:
             self._is_lit = is_faulty
