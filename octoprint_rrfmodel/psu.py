@@ -1,7 +1,7 @@
 """The machine's power supply, as PSUControl's sub-plugins have it: M80, M81, and the model."""
 
 METHODS = ("turn_psu_on", "turn_psu_off", "get_psu_state")
-"""What PSUControl calls on a plugin that has registered (its extra/psucontrol_subpluginexample.py)."""
+"""What PSUControl calls on what has registered (its extra/psucontrol_subpluginexample.py)."""
 
 
 class PowerSupply:

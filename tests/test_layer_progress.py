@@ -1,4 +1,4 @@
-"""The payload that DisplayLayerProgress's users know: its members, its forms, and when it is sent."""
+"""The payload that DisplayLayerProgress's users know: members, forms, and when it is sent."""
 
 import time
 
