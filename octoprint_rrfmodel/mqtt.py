@@ -82,9 +82,11 @@ class MqttPublisher:
             self._changed.clear()
 
     def problem(self):
-        """Return the code of the warning about the topic, ``None`` where it is one."""
-        topic = self._topic()
-        return "mqtt_topic" if topic is not None and topic_of(topic) is None else None
+        """Return the code of a warning where the setting is no topic and somebody publishes."""
+        setting = self._topic()
+        if setting is None or topic_of(setting) or self._publish() is None:
+            return None
+        return "mqtt_topic"
 
     def tick(self):
         """Publish what is due; return the seconds until something may be."""

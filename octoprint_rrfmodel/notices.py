@@ -67,6 +67,10 @@ def warning_text(code, numbers=()):
             "The printer profile has fewer extruders than the machine's highest tool number needs,"
             " so that OctoPrint drops tool commands."
         ),
+        "mqtt_topic": gettext(
+            "Nothing is published over MQTT: the topic in the plugin's settings is empty, too long,"
+            " or has one of the characters + and # in it."
+        ),
         "profile_reconnect": gettext(
             "Disconnect the printer and connect it again: OctoPrint still uses the old number of"
             " extruders."

@@ -21,7 +21,7 @@ PROMPT_COMMAND = "M876"
 ACTION_HOOK = "octoprint.comm.protocol.action"
 CAPABILITY_HOOK = "octoprint.comm.protocol.firmware.capabilities"
 CAPABILITY = "PROMPT_SUPPORT"
-"""What Marlin says of itself; the bundled plugin shows nothing for a printer that hasn't said it."""
+"""What Marlin says of itself; without it the bundled plugin shows nothing."""
 
 NO_BOX = {}
 

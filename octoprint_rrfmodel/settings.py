@@ -13,6 +13,16 @@ DEFAULTS = {
     "guard": {code: True for code in GUARDS},
     # keep the plugin's polls out of the terminal tab
     "hide_polls": True,
+    "mqtt": {
+        # publish the model, where OctoPrint-MQTT is there
+        "enabled": True,
+        # the whole one: OctoPrint-MQTT puts nothing before it
+        "topic": "octoPrint/plugin/rrfmodel",
+    },
+    # tell what DisplayLayerProgress tells, where that plugin isn't there
+    "layer_progress": True,
+    # message boxes also in OctoPrint's own dialog for prompts of a printer
+    "prompts": False,
     "simulator": {
         # whether the port RRF-SIM is offered
         "enabled": False,

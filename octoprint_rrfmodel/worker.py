@@ -23,12 +23,12 @@ class Worker:
     return the seconds until they want to be called again.
     """
 
-    def __init__(self, handlers, ticks):
+    def __init__(self, handlers, ticks, name="rrfmodel.worker"):
         self._handlers = handlers
         self._ticks = ticks
         self._notes = queue.SimpleQueue()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.worker")
-        self._thread = threading.Thread(target=self._run, name="rrfmodel.worker", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
     def start(self):
         """Begin to work through the notes."""

@@ -252,6 +252,8 @@ def test_bad_topic_is_a_problem_and_off_is_none(setting, code):
     rig.tick()
     assert rig.publisher.problem() == code
     assert (helper.take() == []) is (setting != TOPIC)
+    rig.helper = None
+    assert rig.publisher.problem() is None
 
 
 @pytest.mark.parametrize("setting", [None, "a/#"], ids=["off", "bad"])
