@@ -1,4 +1,4 @@
-"""Layers and progress of a print from the card, and of one that is streamed, as others read them."""
+"""Layers and progress of a print from the card, and of one that is streamed, for others."""
 
 from pathlib import Path
 
@@ -41,7 +41,7 @@ def connect(board_factory):
     def start(server):
         board = board_factory(machine="cartesian")
         with board.board.lock:
-            board.board.card.write("0:/gcodes/tower.gcode", tower(2).encode())
+            board.board.card.write("0:/gcodes/tower.gcode", tower(2))
         helpers.connect(server, board)
         server.commands("G28")
         helpers.wait_value(server, "move.axes[].homed", [True] * 3, 30)
