@@ -12,6 +12,7 @@ from octoprint_rrfmodel.layer_progress import (
     StreamedPrint,
     streamed_print,
 )
+from tests.support.docs import json_examples
 
 # members and examples of their forms: DisplayLayerProgress, README, developers' section
 MEMBERS = {
@@ -126,6 +127,13 @@ def test_forms_of_a_print_from_the_card():
         "changeFilamentCount": 0,
         "currentFilename": "vase.gcode",
     }
+
+
+def test_documentation_shows_it():
+    (documented,) = (e for e in json_examples("integrations.md") if "updateReason" in e)
+    # the time of day is the reader's
+    end = {"estimatedEndTime": documented["estimatedEndTime"]}
+    assert {**Rig().payload(), **end} == documented
 
 
 def test_forms_of_a_print_that_is_streamed():

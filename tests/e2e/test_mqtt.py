@@ -7,6 +7,7 @@ import pytest
 from tests.support import broker as mqtt
 from tests.support import plugins
 from tests.support.basedir import READER
+from tests.support.docs import json_examples
 
 from . import helpers
 
@@ -45,7 +46,9 @@ def test_model_is_published_and_followed(server, broker, board_factory):
     known = told(broker)
     status = known.pop("status")
     assert status["firmware"]["version"] == board.board.firmware.version
-    assert {"age", "revision", "counters"} & set(status) == set()
+    (documented,) = (e for e in json_examples("integrations.md") if "ready" in e)
+    assert set(status) == set(documented)
+    assert set(status["firmware"]) == set(documented["firmware"])
     assert set(known) == set(board.board.model)
     assert (
         list(
