@@ -83,6 +83,7 @@ class RrfModelPlugin(
             lambda: self.bridge.connection,
             self._model,
             self._operations.translate,
+            lambda row: self._settings.get_boolean(["replies", row]),
         )
         self.bridge = CommBridge(
             self._worker.notify,
@@ -165,7 +166,7 @@ class RrfModelPlugin(
         ]
 
     def get_template_vars(self):
-        return {"operations": list(DEFAULTS["operations"])}
+        return {group: list(DEFAULTS[group]) for group in ("operations", "replies")}
 
     def is_template_autoescaped(self):
         return True

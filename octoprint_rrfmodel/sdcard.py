@@ -46,14 +46,16 @@ class SdCard:
     ``plan`` is a ``CardPlan``, ``job`` an ``SdJob``. ``connection()`` is OctoPrint's connection to
     a board with RepRapFirmware, else ``None``. ``model()`` is the snapshot.
     ``translate(cmd, gcode, tags)`` looks at commands that have nothing to do with the card.
+    ``is_reworded(row)`` says whether a row of the table of replies is switched on.
     """
 
-    def __init__(self, plan, job, connection, model, translate):
+    def __init__(self, plan, job, connection, model, translate, is_reworded):
         self._plan = plan
         self._job = job
         self._connection = connection
         self._model = model
         self._translate = translate
+        self._is_reworded = is_reworded
         self._forget()
 
     def _forget(self):
@@ -135,7 +137,7 @@ class SdCard:
         if line.startswith(LIST_BEGINS):
             self._listed = []
             return line
-        worded = reword(line, lambda: self._situation(comm))
+        worded = reword(line, lambda: self._situation(comm), self._is_reworded)
         if worded is not line:
             self._listed = None
             if worded.startswith("File opened"):

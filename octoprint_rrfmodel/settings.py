@@ -3,12 +3,15 @@
 from .rrf.alerts import GUARDS
 from .rrf.operations import ROWS
 from .rrf.unsendable import ROWS as UNSENDABLE
+from .rrf.wording import ROWS as WORDING
 
 VERSION = 1
 
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
     "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
+    # rows of the table of replies that are switched off reach OctoPrint as the firmware has them
+    "replies": {row.name: True for row in WORDING},
     # what pauses a print that OctoPrint streams
     "guard": {code: True for code in GUARDS},
     # keep the plugin's polls out of the terminal tab

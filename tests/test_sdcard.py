@@ -72,8 +72,14 @@ class Bench:
         self.is_current = True
         job = SdJob(lambda: self.model, lambda: self.is_current, self.sent.append, lambda: self.now)
         self.plan = CardPlan()
+        self.switched_off = set()
         self.card = SdCard(
-            self.plan, job, lambda: self.comm, lambda: self.model, lambda *command: "else"
+            self.plan,
+            job,
+            lambda: self.comm,
+            lambda: self.model,
+            lambda *command: "else",
+            lambda row: row not in self.switched_off,
         )
         self.card.identified()
 
@@ -130,6 +136,13 @@ def test_known_list_stands_for_the_plain_one(bench):
     bench.hear("Begin file list", "other.gcode", "End file list")
     ((name, file),) = bench.comm._sdFiles.items()
     assert (file.name, file.size, file.longname) == (name, 500, "a b.gcode")
+
+
+def test_row_that_is_switched_off_leaves_the_reply(bench):
+    line = "SD card 0 may now be removed"
+    assert bench.hear(line) == ["SD card released"]
+    bench.switched_off.add("released")
+    assert bench.hear(line) == [line + "\n"]
 
 
 def test_other_lines_come_through_a_list(bench):

@@ -31,6 +31,7 @@ class Row(NamedTuple):
     """One line of the table."""
 
     name: str
+    """As the setting that switches it off is called."""
     begins: str
     """The first two characters of a line that this is about."""
     pattern: re.Pattern[str]
@@ -132,10 +133,16 @@ BEGINNINGS = frozenset(row.begins for row in ROWS)
 _ROWS_OF = {begins: [row for row in ROWS if row.begins == begins] for begins in BEGINNINGS}
 
 
-def reword(line: str, situation: Callable[[], Situation]) -> str:
-    """Return a reply in words that the host knows; ``situation`` is asked for only if needed."""
+def reword(
+    line: str, situation: Callable[[], Situation], is_on: Callable[[str], bool] = lambda row: True
+) -> str:
+    """Return a reply in words that the host knows.
+
+    ``is_on(row)`` says whether a row of the table is switched on; that and ``situation`` are asked
+    for only if needed.
+    """
     for row in _ROWS_OF.get(line[:2], ()):
         found = row.pattern.match(line)
         if found is not None:
-            return row.say(found, situation()) or line
+            return is_on(row.name) and row.say(found, situation()) or line
     return line

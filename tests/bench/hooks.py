@@ -40,6 +40,7 @@ def measure() -> None:
         connection=lambda: comm,
         model=dict,
         translate=lambda *command: None,
+        is_reworded=lambda row: True,
     )
     bridge = CommBridge(
         notify=lambda *note: None,

@@ -2,6 +2,10 @@
 
 import pytest
 
+from octoprint_rrfmodel.rrf.alerts import GUARDS
+from octoprint_rrfmodel.rrf.operations import ROWS as OPERATIONS
+from octoprint_rrfmodel.rrf.unsendable import ROWS as UNSENDABLE
+from octoprint_rrfmodel.rrf.wording import ROWS as WORDING
 from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
 
@@ -25,6 +29,24 @@ def board(server, board_factory):
 
 def warnings(server):
     return [found["code"] for found in helpers.status(server)["warnings"]]
+
+
+SWITCHES = {
+    "operations": [row.name for row in (*OPERATIONS, *UNSENDABLE)],
+    "replies": [row.name for row in WORDING],
+    "guard": list(GUARDS),
+}
+
+
+@pytest.mark.parametrize("group", SWITCHES)
+def test_each_row_has_a_switch_that_is_on(server, group):
+    rows = SWITCHES[group]
+    settings = server.get("/api/settings").json()["plugins"]["rrfmodel"]
+    assert settings[group] == dict.fromkeys(rows, True)
+    with server.session(ADMIN) as session:
+        page = session.get("/").text
+    for row in rows:
+        assert f'"checked: settings.plugins.rrfmodel.{group}.{row}"' in page, row
 
 
 def test_settings(server, board, page, page_errors):

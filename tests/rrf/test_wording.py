@@ -66,6 +66,14 @@ def test_row(name, line, situation, wanted, end):
     assert reword(line + end, lambda: situation) == (wanted or line + end)
 
 
+@pytest.mark.parametrize(
+    ("name", "line", "situation"),
+    [(name, *case[:2]) for name, cases in CASES.items() for case in cases],
+)
+def test_row_that_is_switched_off(name, line, situation):
+    assert reword(line, lambda: situation, lambda row: row != name) == line
+
+
 def test_every_row_has_its_cases():
     assert [row.name for row in ROWS] == list(CASES)
     for row in ROWS:
