@@ -5,8 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-_WORD = re.compile(r"([A-Za-z])\s*(-?[0-9]*\.?[0-9]+)?")
-"""One word of a plain command: group 1 the letter, group 2 the number, if it has one."""
+_WORD = re.compile(r"([A-Za-z])\s*(-?[0-9]*\.?[0-9]+(?:e[-+][0-9]+)?)?")
+"""One word of a plain command: group 1 the letter, group 2 the number, if it has one. A host in
+Python writes very small numbers with ``e-``."""
+
+_TEXT = re.compile(r'(?:(?P<letter>[A-Za-z])\s*)?"(?P<text>(?:[^"]|"")*)"')
+"""A text in quotes, with the letter in front of it if there is one."""
 
 
 def words(line: str) -> dict[str, float | None]:
@@ -42,6 +46,25 @@ def quoted(text: str) -> str:
     """
     doubled = text.replace('"', '""').replace("'", "''")
     return f'"{doubled}"'
+
+
+def texts(line: str) -> dict[str, str]:
+    """Return the texts of a line that stand behind a letter, by upper-case letter.
+
+    >>> texts('M291 P"Is it there?" R "Look" S3')
+    {'P': 'Is it there?', 'R': 'Look'}
+    """
+    return {
+        found["letter"].upper(): _unquoted(found["text"])
+        for found in _TEXT.finditer(line)
+        if found["letter"]
+    }
+
+
+def _unquoted(text: str) -> str:
+    """Return what a text in quotes means; the reverse of :func:`quoted`."""
+    plain = text.replace('""', '"')
+    return re.sub("'(.)", lambda found: found[1].lower(), plain, flags=re.DOTALL)
 
 
 def axis_word(letter: str, value: str = "") -> str:
