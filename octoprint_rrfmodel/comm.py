@@ -36,20 +36,21 @@ class CommBridge:
 
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
     ``poll_sent``, ``status_sent``, ``identified``, ``halted`` and ``heard`` (what a line tells);
-    it must only take note and return. ``drops(cmd, gcode)`` says whether a command isn't to be
-    sent, ``guards(error)`` whether a serious error only pauses the print.
+    it must only take note and return. ``instead(cmd, gcode, tags)`` gives what to queue for
+    a command that had better not be sent, ``None`` for others. ``guards(error)`` says whether a
+    serious error only pauses the print.
     ``translate(cmd, gcode, tags)`` gives the lines to queue for a command that isn't a file's,
     ``None`` to leave it as it is. ``card.reword(line)`` gives a line in words that OctoPrint
     knows, ``card.fill()`` one in the place of a line that was the plugin's alone.
     ``show_target(heater, target)`` shows the target that a translated command sets.
     """
 
-    def __init__(self, notify, translate, card, show_target, drops, guards, clock):
+    def __init__(self, notify, translate, card, show_target, instead, guards, clock):
         self._notify = notify
         self._translate = translate
         self._card = card
         self._show_target = show_target
-        self._drops = drops
+        self._instead = instead
         self._guards = guards
         self._clock = clock
         self._comm = None
@@ -171,8 +172,10 @@ class CommBridge:
         if gcode is None:
             if not cmd.startswith("T"):
                 return None
-        elif gcode in WATCHED and self._stops(cmd, gcode):
-            return (None,)
+        elif gcode in WATCHED:
+            instead = self._watched(cmd, gcode, tags or ())
+            if instead is not None:
+                return self._queue(instead, cmd_type, gcode)
         elif tags and FILE_TAG not in tags:
             if POLL_TAG in tags and gcode != STATUS_REQUEST:
                 return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
@@ -183,12 +186,12 @@ class CommBridge:
             return None
         return [(STATUS_REQUEST, None, {STATUS_TAG}), (cmd, cmd_type)]
 
-    def _stops(self, cmd, gcode):
-        """Return whether a command is dropped; OctoPrint hangs up on an emergency stop."""
+    def _watched(self, cmd, gcode, tags):
+        """Return what to queue instead; OctoPrint hangs up on an emergency stop."""
         if gcode == EMERGENCY_STOP:
             self._notify("halted")
-            return False
-        return self._drops(cmd, gcode)
+            return None
+        return self._instead(cmd, gcode, tags)
 
     def _queue(self, translated, cmd_type, gcode):
         """Return the lines of an operation in the hook's form."""

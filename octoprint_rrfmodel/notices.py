@@ -29,6 +29,15 @@ def notice_text(code, detail):
     return texts[code] % {"detail": detail}
 
 
+def waiting_text(text):
+    """Return the sentence for a message box that a print was to wait for."""
+    return gettext(
+        'A message waits for an answer: "%(text)s". Do what it says, then resume the print, or'
+        " cancel it.",
+        text=text,
+    )
+
+
 def warning_text(code, numbers=()):
     """Return the sentence for a warning's code, with its numbers in it."""
     texts = {

@@ -2,12 +2,10 @@
 
 import threading
 
-from .rrf.operations import OPERATIONS, Lines, Memory, Refused, row_for, translate
+from .rrf.operations import NOTHING, OPERATIONS, Memory, Refused, row_for, translate
 
 OPERATION_OF_TAG = {f"trigger:printer.{operation}": operation for operation in OPERATIONS}
 """OctoPrint's tag to the operation; 1.11 adds one for ``commands`` to each."""
-
-NOTHING = Lines()
 
 
 class OperationTranslator:

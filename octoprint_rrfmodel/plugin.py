@@ -90,7 +90,7 @@ class RrfModelPlugin(
             self._card.translate,
             self._card,
             self.display.show_target,
-            self._unsendable.drops,
+            self._unsendable.instead,
             self._protection.guard.handles,
             clock,
         )

@@ -2,7 +2,13 @@
 
 import logging
 
-from .rrf.unsendable import unsendable
+from .comm import FILE_TAG
+from .notices import waiting_text
+from .rrf.operations import NOTHING, Lines
+from .rrf.unsendable import text_of_box, unsendable
+
+PAUSE = Lines(("@pause",))
+"""OctoPrint's own command that pauses the print where it stands; the printer doesn't see it."""
 
 
 class UnsendableCommands:
@@ -18,12 +24,18 @@ class UnsendableCommands:
         self._refused = refused
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.unsendable")
 
-    def drops(self, cmd, gcode):
-        """Return whether a command isn't to be sent; who waits for it is told."""
+    def instead(self, cmd, gcode, tags):
+        """Return what to queue in place of ``cmd``, ``None`` to queue it as it is.
+
+        Who waits for it is told. A print pauses where a person was to act, as it does at M0.
+        """
         row = unsendable(cmd, gcode, self._machine())
         if row is None or not self._is_on(row.name):
-            return False
+            return None
         self._logger.info("Not sending %r: %s", cmd, row.reason)
+        if row.pauses and FILE_TAG in tags:
+            self._refused("print_paused", waiting_text(text_of_box(cmd)))
+            return PAUSE
         if row.is_told:
             self._refused(row.name, cmd)
-        return True
+        return NOTHING

@@ -39,6 +39,9 @@ class Memory:
         self.relative = False
 
 
+NOTHING = Lines()
+"""Nothing goes out, and nobody has to know."""
+
 Outcome = Union[Lines, Refused]
 Translation = Callable[[dict[str, "float | None"], Machine, Memory], Outcome]
 

@@ -10,6 +10,7 @@ import re
 from typing import Callable, NamedTuple
 
 from .alerts import loses_boxes
+from .gcode import texts
 from .machine import Machine
 
 _QUOTED = re.compile(r'"(?:[^"]|"")*"')
@@ -31,6 +32,8 @@ class Row(NamedTuple):
     """Whether a command, without the texts in it, is one of those on that machine."""
     is_told: bool
     """Whether a person has to know that it wasn't sent."""
+    pauses: bool
+    """Whether a person was to act there, so that a print must not go on by itself."""
     reason: str
     """Why, with the source."""
 
@@ -56,6 +59,7 @@ ROWS = (
         ("M291",),
         _waits_for_ever,
         True,
+        True,
         "From 3.5.0 to 3.6.0 M292 does not reach a box that USB has opened, and the channel waits"
         " for ever (Duet3D/RepRapFirmware #1141).",
     ),
@@ -64,12 +68,14 @@ ROWS = (
         ("M111",),
         _is_unacknowledged,
         True,
+        False,
         "Without parameters and with P there is no ok (3.5 GCodes2.cpp:1914, :1931).",
     ),
     Row(
         "probes",
         ("M113", "M154", "M155", "M410"),
         _always,
+        False,
         False,
         "No firmware has them: each earns a warning (3.3 to 3.6).",
     ),
@@ -84,3 +90,8 @@ def unsendable(command: str, gcode: str, machine: Machine) -> Row | None:
     """Return the row because of which a command is better not sent, ``None`` for others."""
     row = _BY_GCODE.get(gcode)
     return row if row is not None and row.hits(_QUOTED.sub('""', command), machine) else None
+
+
+def text_of_box(command: str) -> str:
+    """Return what a message box would say, the command itself where that is no plain text."""
+    return texts(command).get("P", command)

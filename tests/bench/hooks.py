@@ -47,7 +47,7 @@ def measure() -> None:
         translate=card.translate,
         card=card,
         show_target=lambda *target: None,
-        drops=lambda *command: False,
+        instead=lambda *command: None,
         guards=lambda error: False,
         clock=lambda: 0.0,
     )

@@ -84,26 +84,51 @@ def test_switched_off(server, connected):
         server.set_setting("plugins.rrfmodel.operations", {"probes": True})
 
 
+def resume(server):
+    response = server.post("/api/job", json={"command": "pause", "action": "resume"})
+    assert response.status_code == 204, response.text
+
+
+def dwells(board):
+    """Return what has come of the lines that each place of a file is known by."""
+    return [text for text in helpers.commands(board) if text.startswith("G4")]
+
+
 def test_streamed(server, connected):
-    """A print goes through with all of them in it, and pauses at M0."""
+    """A print goes through with all of them in it, and pauses where a person is to act."""
     board = connected()
     board.board.inject("usb_box_stuck")
-    lines = ["M111", BLOCKING_BOX, "M155 S1", "; comment", "G4 P10", "M0", "G4 P11", "M1", "G4 P12"]
-    server.upload("odd.gcode", "\n".join(lines) + "\n")
-    before = len(board.board.received())
-    server.select_and_print("odd.gcode")
-    for _ in range(2):
-        server.wait_state("Paused", 20)
-        response = server.post("/api/job", json={"command": "pause", "action": "resume"})
-        assert response.status_code == 204
+    stops = ["M0", BLOCKING_BOX, "M1"]
+    lines = ["M111", "M155 S1", "; comment"]
+    for number, stop in enumerate(stops):
+        lines += [f"G4 P{number}", stop]
+    server.upload("odd.gcode", "\n".join([*lines, f"G4 P{len(stops)}"]) + "\n")
+    with PushListener(server, ADMIN) as push:
+        # from here on the login counts
+        push.wait_for_plugin(bool)
+        server.select_and_print("odd.gcode")
+        for number, _ in enumerate(stops):
+            server.wait_state("Paused", 20)
+            # nothing goes out behind the place
+            assert dwells(board) == [f"G4 P{before}" for before in range(number + 1)]
+            resume(server)
+        server.wait_state("Operational", 20)
+        assert len(push.events("PrintPaused")) == len(stops)
+        (notice,) = [found for found in push.of_plugin() if found.get("code") == "print_paused"]
+        assert '"Is it S1 there?"' in notice["text"]
+        assert "resume the print" in notice["text"]
+    assert dwells(board) == [f"G4 P{number}" for number in range(len(stops) + 1)]
+    sent = {text.split()[0] for text in helpers.commands(board) if text}
+    assert not {"M111", "M291", "M155", "M0", "M1", "@pause"} & sent
+
+
+def test_box_that_can_be_answered_goes_out_in_a_print(server, connected):
+    board = connected(firmware="3.4")
+    server.upload("box.gcode", f"G4 P1\n{BLOCKING_BOX}\nG4 P2\n")
+    server.select_and_print("box.gcode")
+    server.wait_for(lambda: dwells(board) == ["G4 P1", "G4 P2"], 20, "the lines of the file")
+    assert BLOCKING_BOX in helpers.commands(board)
     server.wait_state("Operational", 20)
-    sent = [text.split()[0] for text in helpers.commands(board)[before:]]
-    assert not {"M111", "M291", "M155", "M0", "M1"} & set(sent)
-    assert [text for text in helpers.commands(board)[before:] if text.startswith("G4")] == [
-        "G4 P10",
-        "G4 P11",
-        "G4 P12",
-    ]
 
 
 def box_warning(server):

@@ -4,7 +4,7 @@ import pytest
 
 from octoprint_rrfmodel.rrf.machine import Machine
 from octoprint_rrfmodel.rrf.operations import ROWS as OPERATIONS
-from octoprint_rrfmodel.rrf.unsendable import GCODES, ROWS, unsendable
+from octoprint_rrfmodel.rrf.unsendable import GCODES, ROWS, text_of_box, unsendable
 
 
 def row_for(line, version="3.5.3"):
@@ -55,6 +55,22 @@ def test_command(line, name):
 )
 def test_message_box_by_firmware(version, name):
     assert row_for('M291 P"x" S2', version) == name
+
+
+@pytest.mark.parametrize(
+    "line, text",
+    [
+        ('M291 P"Is it ""S1""?" R"Look" S3', 'Is it "S1"?'),
+        ('M291 S2 R"P" P"Go"', "Go"),
+        ("M291 P{var.text} S3", "M291 P{var.text} S3"),
+    ],
+)
+def test_text_of_a_box(line, text):
+    assert text_of_box(line) == text
+
+
+def test_only_a_box_is_a_place_to_pause():
+    assert [row.name for row in ROWS if row.pauses] == ["message_box"]
 
 
 def test_table():
