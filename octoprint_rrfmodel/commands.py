@@ -20,12 +20,12 @@ class Command(NamedTuple):
 class PluginCommands:
     """Runs commands; none of them waits for the printer."""
 
-    def __init__(self, recovery, settings, profile):
+    def __init__(self, recovery, fix_settings, fix_profile, restore):
         self._commands = {
             "recover": Command("PLUGIN_RRFMODEL_CONTROL", recovery.start, recovery.refusal),
-            "fix_settings": Command("SETTINGS", settings.fix),
-            "restore_settings": Command("SETTINGS", settings.restore),
-            "fix_profile": Command("SETTINGS", profile.fix),
+            "fix_settings": Command("SETTINGS", fix_settings),
+            "restore_settings": Command("SETTINGS", restore),
+            "fix_profile": Command("SETTINGS", fix_profile),
         }
 
     def names(self):

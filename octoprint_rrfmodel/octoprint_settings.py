@@ -1,9 +1,7 @@
 """OctoPrint's settings that matter for RepRapFirmware: checked, set on request, and set back."""
 
-import json
 import logging
 import threading
-from pathlib import Path
 from typing import NamedTuple
 
 from octoprint.util.version import is_octoprint_compatible
@@ -97,13 +95,13 @@ NEEDS = (
 class OctoPrintSettings:
     """Knows what is missing, sets it, and sets back exactly that.
 
-    ``settings()`` are the plugin's, which lead to OctoPrint's. ``folder()`` is the plugin's own,
-    where what was changed is written down: the settings page would write old values back.
+    ``settings()`` are the plugin's, which lead to OctoPrint's. ``changes`` is where what was
+    changed is written down.
     """
 
-    def __init__(self, settings, folder):
+    def __init__(self, settings, changes):
         self._settings = settings
-        self._folder = folder
+        self._changes = changes
         self._lock = threading.Lock()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.octoprint_settings")
         self.missing = ()
@@ -116,23 +114,23 @@ class OctoPrintSettings:
     def fix(self):
         """Set what is missing and write down what was changed."""
         with self._lock:
-            changes = self._read_changes()
+            changes = self._changes.read()
             for need in NEEDS:
                 if self._lacks(need):
                     self._fix(need, changes.setdefault(need.code, {}))
-            self._write_changes(changes)
+            self._changes.write(changes)
             self._save()
 
     def restore(self):
         """Take back what was changed and has not been changed since."""
         with self._lock:
-            changes = self._read_changes()
+            changes = self._changes.read()
             for need in NEEDS:
                 if need.code in changes:
                     self._restore(need, changes[need.code])
             if changes:
                 self._save()
-                self._file().unlink()
+                self._changes.forget()
 
     def _lacks(self, need):
         value = self._settings().global_get(need.path)
@@ -165,13 +163,3 @@ class OctoPrintSettings:
     def _save(self):
         self._settings().save(trigger_event=True)
         self.look()
-
-    def _file(self):
-        return Path(self._folder()) / "changed_settings.json"
-
-    def _read_changes(self):
-        file = self._file()
-        return json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
-
-    def _write_changes(self, changes):
-        self._file().write_text(json.dumps(changes), encoding="utf-8")

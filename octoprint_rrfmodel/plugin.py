@@ -118,10 +118,10 @@ class RrfModelPlugin(
     ##~~ OctoPrintPlugin
 
     def on_plugin_pending_uninstall(self):
-        self._protection.out_of_use()
+        self._protection.restore()
 
     def on_plugin_disabled(self):
-        self._protection.out_of_use()
+        self._protection.restore()
 
     ##~~ StartupPlugin, ShutdownPlugin
 
@@ -139,7 +139,7 @@ class RrfModelPlugin(
             self.bridge.forget()
             self._worker.notify("disconnected")
         if event == DISABLED_PLUGIN and payload["id"] == self._identifier:
-            self._protection.out_of_use()
+            self._protection.restore()
         note = self._protection.note_of(event)
         if note and self.bridge.is_rrf:
             self._worker.notify(note)

@@ -6,6 +6,7 @@ from octoprint.events import Events
 
 from .advice import Advice
 from .boxes import UnanswerableBox
+from .changes import Changes
 from .commands import PluginCommands
 from .guard import PrintGuard
 from .octoprint_settings import OctoPrintSettings
@@ -37,7 +38,7 @@ class Protection:
     def __init__(self, printer, profiles, settings, folder, bridge, model, notice, clock):
         self._model = model
         self._box = UnanswerableBox(model, clock)
-        self._settings = OctoPrintSettings(settings, folder)
+        self._settings = OctoPrintSettings(settings, Changes(folder, "changed_settings.json"))
         self.guard = PrintGuard(
             printer,
             lambda: bridge().has_a_print(),
@@ -52,7 +53,9 @@ class Protection:
             lambda: Machine(model()).prints,
             partial(notice, "recover_failed", ""),
         )
-        profile = PrinterProfile(profiles, lambda: bridge().connection, model)
+        self._profile = PrinterProfile(
+            profiles, lambda: bridge().connection, model, Changes(folder, "changed_profiles.json")
+        )
         self.advice = Advice(
             model,
             lambda: bridge().is_rrf,
@@ -60,10 +63,12 @@ class Protection:
             self.guard,
             self._recovery,
             self._settings,
-            profile,
+            self._profile,
             self._box,
         )
-        self.commands = PluginCommands(self._recovery, self._settings, profile)
+        self.commands = PluginCommands(
+            self._recovery, self._settings.fix, self._profile.fix, self.restore
+        )
         self.handlers = {
             "halted": self._recovery.halted,
             "print_resumed": self.guard.resumed,
@@ -81,9 +86,10 @@ class Protection:
             return "settings_updated"
         return "print_bound" if event in PRINT_BOUNDS else None
 
-    def out_of_use(self):
-        """Set OctoPrint's settings back: the plugin will be gone."""
+    def restore(self):
+        """Set back what was changed of OctoPrint's own, as when the plugin will be gone."""
         self._settings.restore()
+        self._profile.restore()
 
     ##~~ on the worker
 

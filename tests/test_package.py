@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -130,8 +131,9 @@ def throwaway_python(tmp_path):
 
 
 def test_plugin_manager_installs_and_removes(
-    repository_zip, source, throwaway_python, server_factory
+    repository_zip, source, throwaway_python, server_factory, board_factory
 ):
+    from tests.e2e import helpers
     from tests.support.basedir import ADMIN, DISABLED_PLUGINS
     from tests.support.push import PushListener
 
@@ -147,6 +149,13 @@ def test_plugin_manager_installs_and_removes(
             )
         assert result["result"], result
         server.restart()
+
+    def octoprints_own():
+        """Return what is stored of the serial line, of the terminal, and the profile."""
+        config = yaml.safe_load((server.basedir / "config.yaml").read_text(encoding="utf-8"))
+        line = config["plugins"].get("serial_connector") or config["serial"]
+        profile = server.get("/api/printerprofiles/_default").json()
+        return line, config.get("feature"), profile["extruder"]
 
     def status():
         return server.get("/plugin/rrfmodel/status")
@@ -171,6 +180,16 @@ def test_plugin_manager_installs_and_removes(
             response = server.get("/plugin/rrfmodel/" + name[len(package) :])
             assert response.status_code == 200, name
 
+    # what it changes of OctoPrint's own is gone with it
+    before = octoprints_own()
+    helpers.connect(server, board_factory(machine="toolchanger"))
+    for command in ("fix_settings", "fix_profile"):
+        response = server.post("/api/plugin/rrfmodel", json={"command": command})
+        assert response.status_code == 204, response.text
+    assert all(old != new for old, new in zip(before, octoprints_own()))
+    helpers.disconnect(server)
+
     uninstall = {"command": "uninstall", "plugin": "rrfmodel"}
     manage("/api/plugin/pluginmanager", json=uninstall)
     assert status().status_code == 404
+    assert octoprints_own() == before

@@ -9,12 +9,25 @@ from . import helpers
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
 
+PROFILE = "/api/printerprofiles/_default"
+
 CODES = ["long_running_commands", "uppercase", "unknown_commands", "external_heatup"]
 
 
+OWN_COMMANDS = ["G28", "M600", "M1234"]
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory):
+    return module_server_factory(serial={"longRunningCommands": OWN_COMMANDS})
+
+
 @pytest.fixture
-def server(server_factory):
-    return server_factory(serial={"longRunningCommands": ["G28", "M600", "M1234"]})
+def profile(server):
+    """The profile's extruders before the test, and after it."""
+    before = extruder(server)
+    yield before
+    patch_extruder(server, before)
 
 
 def warnings(server):
@@ -35,6 +48,20 @@ def of_line(server):
     if is_version_2(server.version):
         return config["plugins"]["serial_connector"]
     return config["serial"]
+
+
+def extruder(server):
+    return server.get(PROFILE).json()["extruder"]
+
+
+def patch_extruder(server, extruder):
+    response = server.patch(PROFILE, json={"profile": {"extruder": extruder}})
+    assert response.status_code == 200, response.text
+
+
+def set_long_running(server, commands):
+    group = "plugins.serial_connector" if is_version_2(server.version) else "serial"
+    server.set_setting(f"{group}.longRunningCommands", commands)
 
 
 def of_terminal(server):
@@ -89,22 +116,23 @@ def test_told_fixed_and_restored(server, board_factory):
 def test_what_a_person_changed_since_stays(server, board_factory):
     helpers.connect(server, board_factory())
     command(server, "fix_settings")
-    commands = [*of_line(server)["longRunningCommands"], "M999"]
-    if is_version_2(server.version):
-        server.set_setting("plugins.serial_connector.longRunningCommands", commands)
-    else:
-        server.set_setting("serial.longRunningCommands", commands)
+    set_long_running(server, [*of_line(server)["longRunningCommands"], "M999"])
     command(server, "restore_settings")
-    assert of_line(server)["longRunningCommands"] == ["G28", "M600", "M1234", "M999"]
+    try:
+        assert of_line(server)["longRunningCommands"] == [*OWN_COMMANDS, "M999"]
+    finally:
+        set_long_running(server, OWN_COMMANDS)
 
 
 def test_out_of_use(server_factory, board_factory):
     """The plugin manager disables the plugin, at the next start."""
     disabled = [name for name in DISABLED_PLUGINS if name != "pluginmanager"]
     server = server_factory(settings={"plugins": {"_disabled": disabled}})
-    helpers.connect(server, board_factory())
+    helpers.connect(server, board_factory(machine="toolchanger"))
     command(server, "fix_settings")
+    command(server, "fix_profile")
     assert "longRunningCommands" in of_line(server)
+    assert extruder(server)["count"] == 11
     response = server.post(
         "/api/plugin/pluginmanager", json={"command": "disable", "plugin": "rrfmodel"}
     )
@@ -113,6 +141,7 @@ def test_out_of_use(server_factory, board_factory):
         lambda: "longRunningCommands" not in of_line(server), 10, "the settings to be as before"
     )
     assert of_terminal(server) is None
+    server.wait_for(lambda: extruder(server)["count"] == 1, 5, "the profile to be as before")
 
 
 def test_nothing_on_other_printers(server_factory):
@@ -125,7 +154,7 @@ def test_nothing_on_other_printers(server_factory):
     assert server.state() == "Operational"
 
 
-def test_profile(server, board_factory):
+def test_profile(server, board_factory, profile):
     board = board_factory(machine="toolchanger")
     helpers.connect(server, board)
     warning = server.wait_for(lambda: warnings(server).get("profile_tools"), 5, "the warning")
@@ -134,15 +163,44 @@ def test_profile(server, board_factory):
         assert command(operator, "fix_profile").status_code == 403
     assert command(server, "fix_profile").status_code == 204
     numbers = [tool["number"] for tool in helpers.value(server, "tools") if tool]
-    profile = server.get("/api/printerprofiles/_default").json()
-    assert profile["extruder"]["count"] == max(numbers) + 1
-    assert len(profile["extruder"]["offsets"]) == max(numbers) + 1
+    assert extruder(server)["count"] == max(numbers) + 1
+    assert len(extruder(server)["offsets"]) == max(numbers) + 1
     if is_version_2(server.version):
         assert "fix" not in warnings(server)["profile_reconnect"]
         helpers.connect(server, board)
     assert not {"profile_tools", "profile_reconnect"} & set(warnings(server))
     server.commands(f"T{max(numbers)}")
     helpers.wait_value(server, "state.currentTool", max(numbers), 20)
+
+    assert command(server, "restore_settings").status_code == 204
+    assert extruder(server) == profile
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        pytest.param({"count": 12, "offsets": [[0.0, 0.0]] * 12}, id="count"),
+        pytest.param({"offsets": [[0.0, 0.0]] * 10 + [[25.0, 0.0]]}, id="offsets"),
+    ],
+)
+def test_profile_that_a_person_changed_since_stays(server, board_factory, profile, change):
+    helpers.connect(server, board_factory(machine="toolchanger"))
+    command(server, "fix_profile")
+    changed = {**extruder(server), **change}
+    patch_extruder(server, changed)
+    assert command(server, "restore_settings").status_code == 204
+    assert extruder(server) == changed
+
+
+def test_profile_raised_twice_goes_back_to_the_first(server, board_factory, profile):
+    helpers.connect(server, board_factory(machine="idex"))
+    command(server, "fix_profile")
+    assert extruder(server)["count"] == 3
+    helpers.connect(server, board_factory(machine="toolchanger"))
+    command(server, "fix_profile")
+    assert extruder(server)["count"] == 11
+    command(server, "restore_settings")
+    assert extruder(server) == profile
 
 
 def test_unknown_command(server):
