@@ -4,7 +4,7 @@ The hooks run on a thread of OctoPrint's that the print waits for.
 None of them decodes, waits, or raises.
 """
 
-from .rrf.blocking import BLOCKING, SETTLING
+from .rrf.blocking import BLOCKING, SETTLING, TARGETING
 from .rrf.errors import is_halted, is_serious
 from .rrf.heard import TELLING, heard
 from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
@@ -58,6 +58,8 @@ class CommBridge:
         self._awaited = None
         self.tool_command_at = 0.0
         """When OctoPrint last sent a command that selects a tool."""
+        self.target_command_at = 0.0
+        """When OctoPrint last sent a command that gives a heater a target."""
         self._polled = set()
         self._targets = {}
         self._surplus = SurplusOk()
@@ -217,7 +219,9 @@ class CommBridge:
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
         self._awaited = gcode
         self._surplus.sending(cmd, gcode)
-        if self._targets and cmd in self._targets:
+        if gcode in TARGETING or cmd in self._targets:
+            self.target_command_at = self._clock()
+        if cmd in self._targets:
             self._show_target(*self._targets.pop(cmd))
         if gcode in ("T", "M109"):
             self.tool_command_at = self._clock()

@@ -10,13 +10,17 @@ from octoprint.util.version import is_octoprint_compatible
 SHOWS_TOOL = is_octoprint_compatible(">=2.0.0rc1")
 """Whether OctoPrint shows a current tool, and wants to be told it like a position."""
 
+KEEP = None
+"""In the place of a target: OctoPrint keeps the one that it has."""
+
 
 class Display:
     """Keeps OctoPrint's own view of the printer right.
 
     ``connection()`` is OctoPrint's connection to a board with RepRapFirmware, else ``None``.
-    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, and
-    whether that is fresh. ``fire(event, payload)`` is OctoPrint's event bus.
+    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, whether
+    that is fresh, and whether it is newer than the last command that gave a heater a target.
+    ``fire(event, payload)`` is OctoPrint's event bus.
     """
 
     def __init__(self, connection, temperatures, fire):
@@ -30,7 +34,7 @@ class Display:
         """Return the report with the model's tools, bed, chamber and sensors in it."""
         if comm is not self._connection():
             return parsed
-        known, is_fresh = self._temperatures()
+        known, is_fresh, knows_targets = self._temperatures()
         if known is None:
             return parsed
         # a report has T for the current tool, and OctoPrint takes that for T0 where there is
@@ -43,13 +47,17 @@ class Display:
         is_readable = current in known.tools or 0 in known.tools
         for number, value in known.tools.items():
             actual, target = value if is_fresh else parsed.get(f"T{number}", (None, None))
+            if is_fresh and not knows_targets:
+                target = KEEP
             if is_readable and number <= highest:
                 merged[f"T{number}"] = (actual, target)
             else:
                 comm.last_temperature.set_tool(number, actual=actual, target=target)
         if is_fresh:
             slots = {"B": known.bed, "C": known.chamber}
-            merged.update({name: value for name, value in slots.items() if value})
+            for name, value in slots.items():
+                if value:
+                    merged[name] = value if knows_targets else (value[0], KEEP)
             merged.update(known.others)
         return merged
 

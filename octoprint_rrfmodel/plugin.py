@@ -263,7 +263,8 @@ class RrfModelPlugin(
     def _known_temperatures(self):
         model = self._model()
         known = temperatures(model) if "heat" in model else None
-        return known, not self._poller.is_stale()
+        knows_targets = self._poller.asked_at > self.bridge.target_command_at
+        return known, not self._poller.is_stale(), knows_targets
 
     def _on_reply(self, taken, asked_at):
         if taken.reset:

@@ -33,5 +33,8 @@ BLOCKING = frozenset(
     )
 )
 
+TARGETING = frozenset(("G10", "M104", "M109", "M140", "M141", "M190", "M191", "M568"))
+"""Commands that may give a heater another target."""
+
 SETTLING = BLOCKING | {"M18", "M84", "G92", "M120", "M564"}
 """Commands after which what was known of axes, heaters and tools may be wrong."""
