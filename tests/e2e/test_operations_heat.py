@@ -2,25 +2,7 @@
 
 import pytest
 
-from . import helpers
-from .operations import PROFILE, SETUPS, Machine, on
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory):
-    return module_server_factory(profile=PROFILE)
-
-
-@pytest.fixture
-def machine(request, server, board_factory):
-    kind, firmware = SETUPS[getattr(request, "param", "one tool 3.5.3")]
-    board = board_factory(machine=kind, firmware=firmware, speed=20)
-    helpers.connect(server, board)
-    made = Machine(server, board)
-    made.settle()
-    yield made
-    helpers.disconnect(server)
-
+from .operations import on
 
 TOOLED = on("one tool 3.5.3", "one tool 2.05", "one tool 3.3", "one tool 3.6")
 CHANGERS = on("changer 3.5.3", "changer 3.3", "changer 2.05")
@@ -64,13 +46,33 @@ def test_target_leaves_standby_alone(machine):
     assert machine.tool(3)["standby"] == [120]
 
 
-def test_target_shows_within_a_second(machine):
-    machine.server.post("/api/printer/tool", json={"command": "target", "targets": {"tool0": 211}})
+@pytest.mark.parametrize(
+    "path, heater, target, request_",
+    [
+        pytest.param(
+            "tool",
+            "tool0",
+            211,
+            ("tool", {"command": "target", "targets": {"tool0": 211}}),
+            id="operation",
+        ),
+        pytest.param("tool", "tool0", 212, ("command", {"command": "M104 S212"}), id="typed"),
+        pytest.param("bed", "bed", 61, ("bed", {"command": "target", "target": 61}), id="bed"),
+    ],
+)
+def test_target_shows_within_a_second_and_stays(machine, path, heater, target, request_):
+    # so that there is something else to ask about before the heaters
+    machine.board.bump("fans", "network", "sensors", "volumes")
+    machine.look()
+    where, request = request_
+    assert machine.server.post(f"/api/printer/{where}", json=request).status_code == 204
     machine.server.wait_for(
-        lambda: machine.server.get("/api/printer/tool").json()["tool0"]["target"] == 211,
-        1,
-        "the new target to show",
+        lambda: machine.shown(path, heater)["target"] == target, 1, "the new target to show"
     )
+    for _ in range(4):
+        machine.look()
+    targets = [entry[heater]["target"] for entry in machine.history(path)]
+    assert set(targets[targets.index(target) :]) == {target}
 
 
 @CHANGERS
@@ -119,8 +121,7 @@ def test_bed_heats_and_zero_switches_off(machine):
     assert machine.server.get("/api/printer/bed").json()["bed"]["target"] == 60
     machine.ask("bed", command="target", target=0)
     assert machine.board.model["heat"]["heaters"][bed]["state"] == "off"
-    history = machine.server.get("/api/printer/bed?history=true").json()["history"]
-    targets = {entry["bed"]["target"] for entry in history if "bed" in entry}
+    targets = {entry["bed"]["target"] for entry in machine.history("bed") if "bed" in entry}
     assert targets <= {None, 0, 60}
 
 

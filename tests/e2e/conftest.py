@@ -1,0 +1,49 @@
+"""Fixtures of the tests that operate machines: one server for a module, one machine at a time."""
+
+import pytest
+
+from . import helpers
+from .operations import PROFILE, SETUPS, Machine
+
+
+def pytest_collection_modifyitems(items):
+    """The tests of a module on the same machine one after the other: each is connected once."""
+    places = [number for number, item in enumerate(items) if "machines" in item.fixturenames]
+    ordered = sorted((items[place] for place in places), key=_module_and_machine)
+    for place, item in zip(places, ordered):
+        items[place] = item
+
+
+def _module_and_machine(item):
+    parameters = getattr(item, "callspec", None)
+    name = parameters.params.get("machine") if parameters else None
+    return item.nodeid.partition("::")[0], list(SETUPS).index(name) if name else -1
+
+
+@pytest.fixture(scope="module")
+def machines(module_server_factory, module_board_factory):
+    """Function that returns the machine called so, connected; the one before is disconnected."""
+    server = module_server_factory(profile=PROFILE)
+    current = {}
+
+    def connected(name):
+        if name not in current:
+            helpers.disconnect(server)
+            for machine in current.values():
+                machine.pty.stop()
+            current.clear()
+            kind, firmware = SETUPS[name]
+            board = module_board_factory(machine=kind, firmware=firmware, speed=20)
+            helpers.connect(server, board)
+            current[name] = Machine(server, board)
+        return current[name]
+
+    return connected
+
+
+@pytest.fixture
+def machine(request, machines):
+    """A connected machine, cold, with no axis homed and no tool selected."""
+    made = machines(getattr(request, "param", "one tool 3.5.3"))
+    made.rest()
+    return made
