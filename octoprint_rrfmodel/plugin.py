@@ -228,7 +228,7 @@ class RrfModelPlugin(
 
     def before_request(self, *args, **kwargs):
         """Return what looks at each request to OctoPrint's API before it is answered."""
-        return [self.uploads.refuse, self._protection.guard.refuse]
+        return [self.uploads.refuse, *self._protection.refusals]
 
     ##~~ from the hooks' parts to OctoPrint
 

@@ -11,6 +11,7 @@ from .commands import PluginCommands
 from .guard import PrintGuard
 from .octoprint_settings import OctoPrintSettings
 from .printer_profile import PrinterProfile
+from .printer_requests import RequestChecks
 from .recovery import Recovery
 from .rrf.machine import Machine
 
@@ -69,6 +70,8 @@ class Protection:
         self.commands = PluginCommands(
             self._recovery, self._settings.fix, self._profile.fix, self.restore
         )
+        self.refusals = [self.guard.refuse, RequestChecks(lambda: bridge().connection).refuse]
+        """What looks at each request to OctoPrint's API before it is answered."""
         self.handlers = {
             "halted": self._recovery.halted,
             "print_resumed": self.guard.resumed,
