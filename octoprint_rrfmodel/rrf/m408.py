@@ -72,6 +72,9 @@ class M408Model:
                 kept = _without_empty(kept)
                 if kept:
                     model["m408"] = {**model.get("m408", {}), **kept}
+        if self._status.get("tools") == []:
+            # a row for a member of each element says nothing of a list without any
+            model["tools"] = []
         if model:
             _complete(model)
         return model
@@ -217,7 +220,10 @@ def _complete(model: dict[str, Any]) -> None:
     else:
         model.pop("fans", None)
     heaters = heat.get("heaters", [])
-    for tool in filter(None, model.get("tools", [])):
+    current = model.get("state", {}).get("currentTool")
+    tools = filter(None, model.get("tools", []))
+    # the current tool last: a heater that several have follows it
+    for tool in sorted(tools, key=lambda tool: tool.get("number") == current):
         for name in ("active", "standby"):
             for heater, target in zip(_array(tool.get("heaters")), _array(tool.get(name))):
                 known = type(heater) is int and 0 <= heater < len(heaters)

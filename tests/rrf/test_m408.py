@@ -211,6 +211,26 @@ def test_targets_of_tools_are_those_of_their_heaters():
     assert targets == [(None, None), (210.0, 160.0), (200.0, 150.0)]
 
 
+def test_heater_of_several_tools_has_the_target_of_the_current_one():
+    model = M408Model().take(
+        {
+            "status": "I",
+            "currentTool": 0,
+            "temps": {"state": [0, 2], "tools": {"active": [[210], [50]], "standby": [[90], [40]]}},
+            "tools": [{"number": 0, "heaters": [1]}, {"number": 1, "heaters": [1]}],
+        }
+    )
+    heater = model["heat"]["heaters"][1]
+    assert (heater["active"], heater["standby"]) == (210, 90)
+
+
+def test_machine_without_tools_has_a_list_of_none():
+    model = M408Model()
+    assert "tools" not in model.take({"status": "I"})
+    assert model.take({"status": "I", "tools": []})["tools"] == []
+    assert model.take({"status": "B"})["tools"] == []
+
+
 def test_forms_that_lack_a_member_keep_what_another_said():
     model = taken(
         status(axisNames="XY", tools=[{"number": 0, "name": "a"}]),
