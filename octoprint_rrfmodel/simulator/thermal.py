@@ -25,6 +25,8 @@ class Thermal:
     def __init__(self, board: Core):
         self._board = board
         self.cancelled_waits = 0
+        self.standby_tools: dict[int, int] = {}
+        """Number of the tool that has put a heater to standby, by the heater's."""
 
     @property
     def heaters(self) -> list[dict[str, Any] | None]:
@@ -109,6 +111,7 @@ class Thermal:
         heater = self.heater(index)
         if heater is not None and heater["state"] not in ("fault", "offline"):
             heater["state"] = state
+            self.standby_tools.pop(index, None)
 
     def set_target(self, index: int, name: str, value: float) -> None:
         """Store an active or standby temperature; at or below -273 the heater goes off."""

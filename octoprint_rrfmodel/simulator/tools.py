@@ -32,6 +32,18 @@ def _tool_meant(board: Core, number: int | None) -> dict[str, Any]:
     return found
 
 
+def _reaches(board: Core, tool: dict[str, Any], index: int, name: str) -> bool:
+    """Return whether a tool's target goes to its heater while another tool may be the current one.
+
+    RRF 3.3 Tool.cpp, SetToolHeaterActiveOrStandbyTemperature; 2.05 the same.
+    """
+    current = board.current_tool()
+    if current is None or current is tool:
+        return True
+    last = board.thermal.standby_tools.get(index, tool["number"])
+    return name == "standby" and last == tool["number"]
+
+
 def set_temperatures(board: Core, tool: dict[str, Any], name: str, values: Iterable[float]) -> None:
     """Store ``active`` or ``standby`` of a tool's heaters; too hot or too cold is an error."""
     values = list(values)
@@ -43,16 +55,27 @@ def set_temperatures(board: Core, tool: dict[str, Any], name: str, values: Itera
         if position < len(tool[name]):
             tool[name][position] = 0.0 if value <= OFF_BELOW else value
         # a heater that is off stays off (RRF 3.5 Heater.cpp:615)
-        board.thermal.set_target(index, name, value)
+        if _reaches(board, tool, index, name):
+            board.thermal.set_target(index, name, value)
 
 
 def set_tool_heaters(board: Core, tool: dict[str, Any], state: str) -> None:
-    """Switch a tool's heaters to that state with the tool's own targets."""
+    """Switch a tool's heaters to that state with the tool's own targets.
+
+    Those that another tool uses, being the current one, are left alone (RRF 3.3 Tool.cpp,
+    HeatersToActiveOrStandby and HeatersToOff).
+    """
+    current = board.current_tool()
+    used = () if current is None or current is tool else current.get("heaters") or ()
     for position, index in enumerate(tool.get("heaters") or ()):
+        if index in used:
+            continue
         for name in ("active", "standby"):
             if position < len(tool[name]):
                 board.thermal.set_target(index, name, tool[name][position])
         board.thermal.set_state(index, state)
+        if state == "standby":
+            board.thermal.standby_tools[index] = tool["number"]
 
 
 def select(board: Core, channel: Channel, number: int, macros: int = 7) -> Running:

@@ -80,6 +80,26 @@ def test_a_tool_of_two_heaters_takes_two_temperatures(bench):
     assert tool(board, 2)["standby"] == [150, 150]
 
 
+@pytest.mark.parametrize(
+    ("firmware", "line", "states"),
+    [
+        ("3.3", "M568 P2 S0:0 A0", ("active", "off")),
+        ("3.6", "M568 P2 S205:205 A2", ("active", "active")),
+        ("3.6", "M568 P2 A1", ("active", "standby")),
+        # R goes to a heater that no tool has put to standby, also to one in use
+        ("2.05", "G10 P2 S-273.15:-273.15 R-273.15:-273.15", ("off", "off")),
+        ("2.05", "G10 P2 S0:-273.15 R0:-273.15", ("active", "off")),
+    ],
+)
+def test_heater_that_the_current_tool_uses(bench, firmware, line, states):
+    board = bench("idex", firmware)
+    board.done("T0")
+    board.send("M104 T2 S190", "M104 S210")
+    board.send(line)
+    assert (heater(board, 2)["state"], heater(board, 3)["state"]) == states
+    assert heater(board, 2)["active"] == 210
+
+
 def test_far_below_zero_is_off(bench):
     board = bench()
     board.done("T0")
