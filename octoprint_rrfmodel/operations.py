@@ -2,7 +2,7 @@
 
 import threading
 
-from .rrf.operations import NOTHING, OPERATIONS, Memory, Refused, row_for, translate
+from .rrf.operations import NOTHING, OPERATIONS, Memory, Refused, is_on, row_for, translate
 
 OPERATION_OF_TAG = {f"trigger:printer.{operation}": operation for operation in OPERATIONS}
 """OctoPrint's tag to the operation; 1.11 adds one for ``commands`` to each."""
@@ -26,10 +26,13 @@ class OperationTranslator:
         """Return what to queue in place of ``cmd``, ``None`` to queue it as it is."""
         operation = next((OPERATION_OF_TAG[tag] for tag in tags if tag in OPERATION_OF_TAG), "")
         row = row_for(operation, gcode)
-        if row is None or not self._is_on(row.name):
+        if row is None:
             return None
         memory = self._callers.__dict__.setdefault("memory", Memory())
+        # a mode counts for what follows also where it goes out as it is
         outcome = translate(row, cmd, self._machine(), memory)
+        if not is_on(row, self._is_on):
+            return None
         if isinstance(outcome, Refused):
             self._refused(outcome.code, outcome.detail)
             return NOTHING

@@ -7,7 +7,8 @@ mode vanish, and the one that does something becomes a whole line.
 
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Union
+from collections.abc import Mapping
+from typing import Any, Callable, NamedTuple, Union
 
 from .gcode import number, numbers, words
 from .machine import HAS_EXPRESSIONS, M568_SETS_TOOLS, Machine
@@ -58,6 +59,8 @@ class Row(NamedTuple):
     translate: Translation
     reason: str
     """Why, with the source."""
+    only_with: str = ""
+    """The row that has to be on too: the host's own command for it needs the mode."""
 
 
 def _set_mode(given: dict[str, float | None], machine: Machine, memory: Memory) -> Outcome:
@@ -118,16 +121,25 @@ def _tool_target(given: dict[str, float | None], machine: Machine, memory: Memor
         targets = numbers([target] * heaters)
         state = 2 if target else 0
         return Lines((f"M568 P{name} S{targets} A{state}",), heater, target)
+    current = machine.current_tool
     if not target:
-        off = ":".join([OFF] * heaters)
+        off = _off_except_those_of(current, tool)
         return Lines((f"G10 P{name} S{off} R{off}",), heater)
     lines = [f"M104 T{name} S{number(target)}"]
-    current = machine.current_tool
     standby = tool.get("standby")
     if current is not None and current["number"] == name and standby:
         # M104 has set the standby temperature too
         lines.append(f"G10 P{name} R{numbers(standby)}")
     return Lines(tuple(lines), heater, target)
+
+
+def _off_except_those_of(current: Mapping[str, Any] | None, tool: Mapping[str, Any]) -> str:
+    """Return temperatures that switch a tool's heaters off, 0 for one that the current tool uses.
+
+    G10 would switch that off too (2.05 Tool.cpp, SetToolHeaterStandbyTemperature); M568 doesn't.
+    """
+    others = () if current is None or current is tool else current.get("heaters") or ()
+    return ":".join("0" if index in others else OFF for index in tool.get("heaters") or (None,))
 
 
 def _slot_target(code: str, heater: str) -> Translation:
@@ -163,6 +175,7 @@ ROWS = (
         ("G90", "G91"),
         _set_mode,
         "The jog itself carries its mode; alone it would stay set (3.5 GCodeMachineState.cpp:41).",
+        only_with="jog",
     ),
     Row(
         "jog",
@@ -172,7 +185,14 @@ ROWS = (
         "One line, so that no other client's command gets in between; M120 and M121 keep and"
         " restore modes and feed rate (3.5 GCodeMachineState.cpp:41-60).",
     ),
-    Row("home_mode", "home", ("G90", "G91"), _nothing, "G28 needs no mode and restores it."),
+    Row(
+        "home_mode",
+        "home",
+        ("G90", "G91"),
+        _nothing,
+        "G28 needs no mode and restores it.",
+        only_with="home",
+    ),
     Row("home", "home", ("G28",), _home, "Values behind the letters are ignored; macros do it."),
     Row(
         "extrude_mode",
@@ -180,6 +200,7 @@ ROWS = (
         ("G90", "G91", "M82", "M83"),
         _nothing,
         "Absolute extrusion left behind would ruin a job in relative extrusion.",
+        only_with="extrude",
     ),
     Row(
         "extrude",
@@ -237,6 +258,11 @@ _BY_COMMAND = {(row.operation, gcode): row for row in ROWS for gcode in row.gcod
 def row_for(operation: str, gcode: str) -> Row | None:
     """Return the row about a command of an operation, ``None`` where it goes out as it is."""
     return _BY_COMMAND.get((operation, gcode))
+
+
+def is_on(row: Row, is_switched_on: Callable[[str], bool]) -> bool:
+    """Return whether a row counts; ``is_switched_on(name)`` tells what somebody has chosen."""
+    return is_switched_on(row.name) and (not row.only_with or is_switched_on(row.only_with))
 
 
 def translate(row: Row, command: str, machine: Machine, memory: Memory) -> Outcome:

@@ -10,6 +10,7 @@ from octoprint_rrfmodel.rrf.operations import (
     Lines,
     Memory,
     Refused,
+    is_on,
     row_for,
     translate,
 )
@@ -118,6 +119,13 @@ TABLE = [
     ("tool_target", "set_temperature", "M104 S205", OLD, ["M104 T0 S205", "G10 P0 R140"]),
     ("tool_target", "set_temperature", "M104 S0", OLD, "G10 P0 S-273.15 R-273.15"),
     ("tool_target", "set_temperature", "M104 T3 S205", OLD_CHANGER, "M104 T3 S205"),
+    (
+        "tool_target",
+        "set_temperature",
+        "M104 T2 S0",
+        machine("2.05.1", tools=[tool(0, [1]), tool(1, [2]), tool(2, [1, 2])], current=0),
+        "G10 P2 S0:-273.15 R0:-273.15",
+    ),
     ("tool_target", "set_temperature", "M104 S205", machine("3.3", [tool(0)]), "M568 P0 S205 A2"),
     ("tool_target", "set_temperature", "M104 T1 S9", UNKNOWN, "M104 S9 T1"),
     ("bed_target", "set_temperature", "M140 S60", ONE, "M140 P1 S60"),
@@ -202,3 +210,13 @@ def test_every_row_is_documented():
     text = (Path(__file__).parents[2] / "docs" / "operations.md").read_text(encoding="utf-8")
     rows = [line.split("|")[1].strip(" `") for line in text.splitlines() if line.startswith("| `")]
     assert rows == [row.name for row in ROWS]
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row.only_with], ids=lambda row: row.name)
+def test_mode_only_vanishes_with_the_command_that_it_is_for(row):
+    needed = next(other for other in ROWS if other.name == row.only_with)
+    assert needed.operation == row.operation
+    assert is_on(row, lambda name: True)
+    assert not is_on(row, lambda name: name != row.name)
+    assert not is_on(row, lambda name: name != row.only_with)
+    assert is_on(needed, lambda name: name != row.name)
