@@ -31,6 +31,45 @@ BESIDE = ("M105", "M409", "M408", "M20", "M118")
 
 MARKS = itertools.count()
 
+AS_OCTOPRINT = {
+    "jog": (
+        "printhead",
+        {"command": "jog", "x": 10, "y": -5, "z": 0.02},
+        ["G91", "G0 X10 Y-5 Z0.02 F200", "G90"],
+    ),
+    "jog absolute": (
+        "printhead",
+        {"command": "jog", "x": 10, "absolute": True, "speed": 1200},
+        ["G90", "G0 X10 F1200"],
+    ),
+    "home": (
+        "printhead",
+        {"command": "home", "axes": ["x", "y"]},
+        ["G91", "G28 X0 Y0", "G90"],
+    ),
+    "feedrate": ("printhead", {"command": "feedrate", "factor": 105}, ["M220 S105"]),
+    "select": ("tool", {"command": "select", "tool": "tool0"}, ["T0"]),
+    "target": ("tool", {"command": "target", "targets": {"tool0": 45}}, ["M104 T0 S45"]),
+    "target current": ("tool", {"command": "target", "targets": {"tool": 0}}, ["M104 S0"]),
+    "offset": ("tool", {"command": "offset", "offsets": {"tool0": 5}}, []),
+    "extrude": (
+        "tool",
+        {"command": "extrude", "amount": 5},
+        ["G91", "M83", "G1 E5 F300", "M82", "G90"],
+    ),
+    "flowrate": ("tool", {"command": "flowrate", "factor": 0.95}, ["M221 S95"]),
+    "bed": ("bed", {"command": "target", "target": 41}, ["M140 S41"]),
+    "bed off": ("bed", {"command": "target", "target": 0}, ["M140 S0"]),
+    "chamber": ("chamber", {"command": "target", "target": 42}, ["M141 S42"]),
+    "chamber off": ("chamber", {"command": "target", "target": 0}, ["M141 S0"]),
+    "commands": (
+        "command",
+        {"commands": ["M111", 'M291 P"Is it there?" S3', "G28 X"]},
+        ["M111", 'M291 P"Is it there?" S3', "G28 X"],
+    ),
+}
+"""Path, request and G-code of each operation as OctoPrint has it, for Marlin."""
+
 
 class Machine:
     """A connected board, and OctoPrint's printer API in front of it."""
@@ -40,15 +79,37 @@ class Machine:
         self.pty = board
         self.board = board.board
         self._history_begins = 0
+        self._is_at_rest = False
 
-    def ask(self, path, wanted=204, **request):
-        """Send an operation; return the G-code that it put on the wire, without status requests."""
+    def ask(self, path, **request):
+        """Send an operation; return the G-code that it put on the wire, without status requests.
+
+        By then the board has done it all and the model says what has become of it.
+        """
+        wire = self.wire(path, **request)
+        self.settle()
+        return wire
+
+    def wire(self, path, **request):
+        """As ``ask``, but what the plugin knows of the outcome may be old."""
         before = len(self.board.received())
         response = self.server.post(f"/api/printer/{path}", json=request)
-        assert response.status_code == wanted, response.text
-        self.settle()
-        lines = helpers.commands(self.pty)[before:]
+        assert response.status_code == 204, response.text
+        self.arrive()
+        wire = self.sent(before)
+        self._is_at_rest = self._is_at_rest and not wire
+        return wire
+
+    def sent(self, since):
+        """Return the G-code that has come in since there were so many lines."""
+        lines = helpers.commands(self.pty)[since:]
         return [line for line in lines if line and line.split()[0] not in BESIDE]
+
+    def execute(self, gcode):
+        """Run G-code at the machine, as its own panel does, and let the model know."""
+        self._is_at_rest = False
+        self.board.execute(gcode)
+        self.settle()
 
     def settle(self):
         """Return once the board has done all and the model says what has become of it."""
@@ -66,8 +127,11 @@ class Machine:
         mark = f'M118 P1 S"{next(MARKS)}"'
         self.server.commands(mark)
         self.server.wait_for(lambda: mark in helpers.commands(self.pty)[-20:], 60, "the last line")
-        usb = self.board.channels["USB"]
-        self.server.wait_for(lambda: usb.is_idle, 60, "the board to have done all")
+        self.server.wait_for(
+            lambda: self.board.channels["USB"].is_idle and not self.board.motion.is_moving,
+            60,
+            "the board to have done all",
+        )
 
     def look(self):
         """Let the plugin ask at once, as it does when the board has something to say."""
@@ -79,6 +143,8 @@ class Machine:
 
     def rest(self):
         """Make the board cold, deselect its tool, forget where its axes are and what was shown."""
+        if self._is_at_rest:
+            return
         numbers = [tool["number"] for tool in self.board.model["tools"] if tool]
         with self.board.lock:
             self.board.execute("T-1 P0")
@@ -87,17 +153,27 @@ class Machine:
             for heater in self.board.model["heat"]["heaters"]:
                 heater.update(state="off", active=0, standby=0, current=21.3)
             self.board.bump("heat", "tools")
+            for extruder in self.board.model["move"]["extruders"]:
+                extruder["factor"] = 1.0
+            self.board.bump("move")
             self.board.execute("M84\nM220 S100")
         self.settle()
+        self._is_at_rest = True
         self._history_begins = 0
         self._history_begins = len(self.history("tool"))
 
+    @property
+    def is_old(self):
+        """Whether M568 doesn't set temperatures."""
+        return not self.board.firmware.has_m568
+
     def home(self):
-        self.ask("printhead", command="home", axes=["x", "y", "z"])
+        assert self.ask("printhead", command="home", axes=["x", "y", "z"]) == ["G28 X Y Z"]
         assert all(axis["homed"] for axis in self.board.model["move"]["axes"][:3])
 
     def warm(self, number):
         """Give a tool the temperature that it was set to, at once."""
+        self._is_at_rest = False
         with self.board.lock:
             for heater in self.heaters(number):
                 heater["current"] = float(heater["active"])
@@ -114,6 +190,11 @@ class Machine:
 
     def tool(self, number):
         return next(t for t in self.board.model["tools"] if t and t["number"] == number)
+
+    def filament(self, number):
+        """Return how far the extruders of a tool have gone together, in mm."""
+        extruders = self.board.model["move"]["extruders"]
+        return sum(extruders[index]["position"] for index in self.tool(number)["extruders"])
 
     def slot(self, kind, slot=0):
         """Return the heater of a slot of ``bedHeaters`` or ``chamberHeaters``."""

@@ -9,6 +9,7 @@ from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
 from . import helpers
+from .operations import AS_OCTOPRINT, PROFILE
 
 PORT = "VIRTUAL"
 LINES = ["G28", "M104 S45", "G1 X10 F6000", "G1 X20", "G1 X30 Y5", "M104 S0", "M117 end"]
@@ -46,11 +47,13 @@ def sent(server):
 def sessions(module_server_factory):
     """Return what two servers sent, one with the plugin and one without, and the first of them."""
     virtual = {"virtual_printer": {"enabled": True}}
-    with_plugin = module_server_factory(plugins_config=virtual)
+    with_plugin = module_server_factory(plugins_config=virtual, profile=PROFILE)
     config = without_own_section(with_plugin)
     lines = session(with_plugin)
     without = module_server_factory(
-        plugins_config=virtual, settings={"plugins": {"_disabled": disabled(with_plugin)}}
+        plugins_config=virtual,
+        profile=PROFILE,
+        settings={"plugins": {"_disabled": disabled(with_plugin)}},
     )
     assert without.get("/plugin/rrfmodel/status").status_code == 404
     return with_plugin, lines, session(without), config
@@ -93,6 +96,28 @@ def test_no_line_changed(sessions):
     server, *_ = sessions
     assert not [line for line in server.received() if "rrfmodel" in line]
     assert any("FIRMWARE_NAME:" in line for line in server.received())
+
+
+@pytest.mark.parametrize("operation", AS_OCTOPRINT)
+def test_operation_goes_out_as_octoprint_has_it(sessions, operation):
+    server, *_ = sessions
+    path, request, lines = AS_OCTOPRINT[operation]
+    begun = len(sent(server))
+    assert server.post(f"/api/printer/{path}", json=request).status_code == 204
+    mark = f"M117 {operation}"
+    server.commands(mark)
+    server.wait_for(lambda: mark in sent(server)[begun:], 30, "the line behind")
+    found = [line for line in sent(server)[begun:] if not BY_THE_CLOCK.fullmatch(line)]
+    # what is left out or put in front by the plugin or by OctoPrint would show here
+    assert found == [*lines, mark]
+
+
+def test_requests_are_answered_by_octoprint_itself(sessions):
+    server, *_ = sessions
+    jog = {"command": "jog", "x": 1, "speed": "fast"}
+    assert server.post("/api/printer/printhead", json=jog).status_code == 204
+    target = {"command": "target", "target": -1}
+    assert server.post("/api/printer/bed", json=target).status_code == 500
 
 
 def test_state_says_so(sessions):
