@@ -183,9 +183,12 @@ def test_file_is_selected(server, connected, select, files, name):
     assert board.board.job.path == FILES[name]
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.5.3"])
-def test_print_pause_resume_cancel(server, connected, select, firmware):
-    board = connected(firmware=firmware)
+@pytest.mark.parametrize(
+    "machine, firmware",
+    [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.6")],
+)
+def test_print_pause_resume_cancel(server, connected, select, machine, firmware):
+    board = connected(machine=machine, firmware=firmware)
     job = board.board.job
     select("square.gcode", start=True)
     wait_printing(server)
