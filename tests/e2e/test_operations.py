@@ -6,6 +6,9 @@ import pytest
 
 from octoprint_rrfmodel.rrf.operations import ROWS
 
+from tests.support.basedir import ADMIN
+from tests.support.push import PushListener
+
 from . import helpers
 from .operations import AS_OCTOPRINT, on
 
@@ -45,9 +48,41 @@ def test_jog_is_one_line_and_leaves_the_modes(machine):
     assert modes(machine) == left
 
 
-@on("one tool 3.5.3", "changer 3.6", "no tools 3.6")
-def test_jog_of_an_axis_that_is_not_homed_is_refused_with_a_notice(machine):
-    assert machine.wire("printhead", command="jog", x=10) == []
+@pytest.mark.parametrize(
+    "machine, refusals",
+    [
+        (
+            "no tools 3.6",
+            {
+                "not_homed": ("printhead", {"command": "jog", "x": 10}),
+                "no_such_tool": ("tool", {"command": "select", "tool": "tool1"}),
+                "no_tool_selected": ("tool", {"command": "flowrate", "factor": 95}),
+                "no_bed": ("bed", {"command": "target", "target": 60}),
+                "no_chamber": ("chamber", {"command": "target", "target": 50}),
+            },
+        ),
+        (
+            "changer 3.6",
+            {
+                "not_homed": ("printhead", {"command": "jog", "y": 10}),
+                "no_such_tool": ("tool", {"command": "target", "targets": {"tool2": 200}}),
+                "too_cold": ("tool", {"command": "extrude", "amount": 5}),
+            },
+        ),
+    ],
+    indirect=["machine"],
+)
+def test_what_is_refused_is_told(machine, refusals):
+    if machine.board.tools():
+        machine.ask("tool", command="select", tool="tool1")
+    with PushListener(machine.server, ADMIN) as push:
+        # from here on the login counts
+        push.wait_for_plugin(bool)
+        for code, (path, request) in refusals.items():
+            assert machine.wire(path, **request) == []
+            notice = push.wait_for_plugin(lambda found, code=code: found.get("code") == code)
+            assert notice["type"] == "notice"
+            assert notice["text"].endswith(".")
     assert machine.server.state() == "Operational"
 
 

@@ -1,5 +1,7 @@
 """The table of replies, row by row, and the job that some of them depend on."""
 
+from pathlib import Path
+
 import pytest
 
 from octoprint_rrfmodel.rrf.job import PRINTING, CardJob, card_job
@@ -79,6 +81,13 @@ def test_every_row_has_its_cases():
     for row in ROWS:
         assert row.reason.endswith((".", ")."))
         assert any(wanted for _, _, wanted in CASES[row.name])
+
+
+def test_every_row_is_documented():
+    text = (Path(__file__).parents[2] / "docs" / "operations.md").read_text(encoding="utf-8")
+    table = text.partition("\n## Replies")[2].partition("\n## ")[0]
+    rows = [line.split("|")[1].strip(" `") for line in table.splitlines() if line.startswith("| `")]
+    assert rows == [row.name for row in ROWS]
 
 
 def test_beginnings_are_those_of_the_lines():
