@@ -48,23 +48,21 @@ def quoted(text: str) -> str:
     return f'"{doubled}"'
 
 
-def texts(line: str) -> dict[str, str]:
-    """Return the texts of a line that stand behind a letter, by upper-case letter.
+def jog_line(moves: Sequence[str], is_relative: bool, speed: float | None) -> str:
+    """Return one line that moves the axes and leaves modes and feed rate as they were.
 
-    >>> texts('M291 P"Is it there?" R "Look" S3')
-    {'P': 'Is it there?', 'R': 'Look'}
+    ``moves`` are words, ``speed`` is in mm/min. M120 and M121 keep and restore (3.5
+    GCodeMachineState.cpp:41-60).
     """
-    return {
-        found["letter"].upper(): _unquoted(found["text"])
-        for found in _TEXT.finditer(line)
-        if found["letter"]
-    }
+    mode = "G91" if is_relative else "G90"
+    feed = f" F{number(speed)}" if speed else ""
+    return f"M120 G21 {mode} G1 {' '.join(moves)}{feed} M121"
 
 
-def _unquoted(text: str) -> str:
-    """Return what a text in quotes means; the reverse of :func:`quoted`."""
-    plain = text.replace('""', '"')
-    return re.sub("'(.)", lambda found: found[1].lower(), plain, flags=re.DOTALL)
+def extrude_line(amounts: Sequence[float], speed: float | None) -> str:
+    """Return one line that extrudes, as ``jog_line``; several amounts are one per extruder."""
+    feed = f" F{number(speed)}" if speed else ""
+    return f"M120 M83 G1 E{numbers(amounts)}{feed} M121"
 
 
 def axis_word(letter: str, value: str = "") -> str:

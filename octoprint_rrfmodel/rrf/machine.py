@@ -31,6 +31,22 @@ class Machine:
         self._is_current = is_current
 
     @property
+    def model(self) -> Mapping[str, Any]:
+        """The snapshot itself."""
+        return self._model
+
+    @property
+    def is_current(self) -> bool:
+        """Whether nothing has happened since the snapshot that could have changed the state."""
+        return self._is_current
+
+    @property
+    def status(self) -> str:
+        """``state.status``; empty where it isn't known."""
+        status = mapping(self._model.get("state")).get("status")
+        return status if isinstance(status, str) else ""
+
+    @property
     def version(self) -> tuple[int, int, int]:
         """The firmware's version; ``(0, 0, 0)`` where none is known."""
         board = mapping(next(iter(array(self._model.get("boards"))), None))
@@ -40,12 +56,12 @@ class Machine:
     @property
     def is_halted(self) -> bool:
         """Whether an emergency stop holds until the next reset."""
-        return mapping(self._model.get("state")).get("status") == "halted"
+        return self.status == "halted"
 
     @property
     def prints(self) -> bool:
         """Whether the machine prints a file of its own and isn't paused."""
-        return mapping(self._model.get("state")).get("status") in PRINTING
+        return self.status in PRINTING
 
     @property
     def tools(self) -> dict[int, Mapping[str, Any]]:
@@ -74,6 +90,12 @@ class Machine:
         tools = self.tools
         return self.current_tool or (tools[min(tools)] if tools else None)
 
+    def heater(self, index: Any) -> Mapping[str, Any]:
+        """Return a heater by its number, an empty one where there is none."""
+        heaters = array(mapping(self._model.get("heat")).get("heaters"))
+        there = isinstance(index, int) and 0 <= index < len(heaters)
+        return mapping(heaters[index]) if there else {}
+
     def slot(self, kind: str) -> int | None:
         """Return the first slot of ``bedHeaters`` or ``chamberHeaters`` that has a heater."""
         heat = mapping(self._model.get("heat"))
@@ -93,16 +115,14 @@ class Machine:
         }
         return "".join(letter for letter in letters if homed.get(letter) is False)
 
-    def is_cold(self, tool: Mapping[str, Any]) -> bool:
-        """Return whether a heater of the tool is too cold to extrude."""
+    def is_cold(self, tool: Mapping[str, Any], retracts: bool = False) -> bool:
+        """Return whether a heater of the tool is too cold to extrude, or to retract."""
         heat = mapping(self._model.get("heat"))
-        limit = heat.get("coldExtrudeTemperature")
-        heaters = array(heat.get("heaters"))
+        limit = heat.get("coldRetractTemperature" if retracts else "coldExtrudeTemperature")
         if not self._is_current or not isinstance(limit, (int, float)):
             return False
         for index in array(tool.get("heaters")):
-            heater = mapping(heaters[index]) if 0 <= index < len(heaters) else {}
-            current = heater.get("current")
+            current = self.heater(index).get("current")
             if isinstance(current, (int, float)) and current < limit:
                 return True
         return False

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Callable, NamedTuple, Union
 
-from .gcode import number, numbers, words
+from .gcode import extrude_line, jog_line, number, numbers, words
 from .machine import HAS_EXPRESSIONS, M568_SETS_TOOLS, Machine
 
 OFF = "-273.15"
@@ -77,11 +77,8 @@ def _jog(given: dict[str, float | None], machine: Machine, memory: Memory) -> Ou
     unhomed = machine.unhomed(axes)
     if unhomed:
         return Refused("not_homed", unhomed)
-    mode = "G91" if memory.relative else "G90"
-    moves = " ".join(f"{axis}{number(given[axis] or 0)}" for axis in axes)
-    feed = given.get("F")
-    speed = f" F{number(feed)}" if feed else ""
-    return Lines((f"M120 G21 {mode} G1 {moves}{speed} M121",))
+    moves = [f"{axis}{number(given[axis] or 0)}" for axis in axes]
+    return Lines((jog_line(moves, memory.relative, given.get("F")),))
 
 
 def _home(given: dict[str, float | None], machine: Machine, memory: Memory) -> Outcome:
@@ -94,9 +91,7 @@ def _extrude(given: dict[str, float | None], machine: Machine, memory: Memory) -
         return Refused("no_tool_selected")
     if tool is not None and machine.is_cold(tool):
         return Refused("too_cold", str(tool["number"]))
-    amount, speed = given.get("E") or 0, given.get("F")
-    feed = f" F{number(speed)}" if speed else ""
-    return Lines((f"M120 M83 G1 E{number(amount)}{feed} M121",))
+    return Lines((extrude_line([given.get("E") or 0], given.get("F")),))
 
 
 def _select_tool(given: dict[str, float | None], machine: Machine, memory: Memory) -> Outcome:
@@ -116,15 +111,13 @@ def _tool_target(given: dict[str, float | None], machine: Machine, memory: Memor
         return Refused("no_such_tool", "" if wanted is None else str(int(wanted)))
     name = tool["number"]
     heater = f"tool{name}"
-    heaters = len(tool.get("heaters") or ()) or 1
     if machine.version >= M568_SETS_TOOLS:
-        targets = numbers([target] * heaters)
+        targets = numbers([target] * heater_count(tool))
         state = 2 if target else 0
         return Lines((f"M568 P{name} S{targets} A{state}",), heater, target)
     current = machine.current_tool
     if not target:
-        off = _off_except_those_of(current, tool)
-        return Lines((f"G10 P{name} S{off} R{off}",), heater)
+        return Lines((tool_off(tool, machine.version),), heater)
     lines = [f"M104 T{name} S{number(target)}"]
     standby = tool.get("standby")
     if current is not None and current["number"] == name and standby:
@@ -148,15 +141,35 @@ def _slot_target(code: str, heater: str) -> Translation:
         if slot is None:
             return Refused(f"no_{heater}")
         target = given.get("S") or 0
-        if target:
-            line = f"{code} P{slot} S{number(target)}"
-        elif machine.version >= HAS_EXPRESSIONS:
-            line = f"{code} P{slot} S{{{OFF}}}"
-        else:
-            line = f"M120 {code} P{slot} S{OFF} M121"
+        line = f"{code} P{slot} S{number(target)}" if target else slot_off(code, slot, machine)
         return Lines((line,), heater, target)
 
     return translate
+
+
+def slot_off(code: str, slot: int, machine: Machine) -> str:
+    """Return the line that switches the heater of a slot off, with M140 or M141.
+
+    A host that looks for S would take the temperature in it for a target, so it stands in an
+    expression, or behind another command where the firmware has none.
+    """
+    if machine.version >= HAS_EXPRESSIONS:
+        return f"{code} P{slot} S{{{OFF}}}"
+    return f"M120 {code} P{slot} S{OFF} M121"
+
+
+def tool_off(tool: Mapping[str, Any], version: tuple[int, int, int]) -> str:
+    """Return the line that switches a tool's heaters off."""
+    name = tool["number"]
+    if version >= M568_SETS_TOOLS:
+        return f"M568 P{name} A0"
+    off = ":".join([OFF] * heater_count(tool))
+    return f"G10 P{name} S{off} R{off}"
+
+
+def heater_count(tool: Mapping[str, Any]) -> int:
+    """Return how many heaters a tool has, 1 where the model doesn't tell."""
+    return len(tool.get("heaters") or ()) or 1
 
 
 def _flow_rate(given: dict[str, float | None], machine: Machine, memory: Memory) -> Outcome:
@@ -230,9 +243,8 @@ ROWS = (
         "set_temperature",
         ("M140",),
         _slot_target("M140", "bed"),
-        "The first slot with a heater; 0 would leave it active (3.5 GCodes2.cpp:2225). A host"
-        " that looks for S would take -273.15 for a target, so it stands in an expression, or"
-        " behind another command where the firmware has none.",
+        "The first slot with a heater; 0 would leave it active (3.5 GCodes2.cpp:2225), so it"
+        " becomes what switches off.",
     ),
     Row(
         "chamber_target",

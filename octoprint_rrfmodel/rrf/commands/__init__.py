@@ -1,0 +1,11 @@
+"""Commands of a person or a program, as lines for the firmware, or why they can't be sent.
+
+``table`` has one row a command; what a parameter may be is in ``parameters`` and ``things``, what
+goes out in one module a topic.
+"""
+
+from .outcome import Refusal, Situation
+from .system import root_of
+from .table import COMMANDS, Command, translate
+
+__all__ = ["COMMANDS", "Command", "Refusal", "Situation", "root_of", "translate"]
