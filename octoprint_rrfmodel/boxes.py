@@ -1,6 +1,6 @@
 """A message box that waits on OctoPrint's line, where the firmware takes no answer to it there."""
 
-from .rrf.alerts import loses_boxes
+from .rrf.alerts import UNANSWERABLE, alerts, loses_boxes
 from .rrf.machine import Machine
 
 
@@ -20,6 +20,11 @@ class UnanswerableBox:
     def is_open(self):
         """Whether nobody can answer the box over USB."""
         return self._opened_at is not None
+
+    @property
+    def is_waiting(self):
+        """Whether such a box is open, by the text or by the model."""
+        return self.is_open or UNANSWERABLE in alerts(self._model())
 
     def opened(self):
         """Note the text that comes with a box."""

@@ -2,43 +2,86 @@
 
 from typing import Callable, NamedTuple
 
+import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from .api import refusal
+from .command_texts import command_text
+from .rrf.commands import COMMANDS
+from .rrf.commands.parameters import listed, shown
+
+ENDPOINT = "api.pluginCommand"
+"""OctoPrint's view of ``POST /api/plugin/<identifier>``."""
+
+IDENTIFIER = "rrfmodel"
+
+CONTROL = "PLUGIN_RRFMODEL_CONTROL"
 
 
 class Command(NamedTuple):
     """One line of the table."""
 
     permission: str
-    run: Callable[[], object]
-    refusal: Callable[[], object] = lambda: None
-    """Why the printer's state forbids it, ``None`` where it doesn't."""
+    run: Callable[[dict], object]
+    """Runs it with its parameters; returns status and sentence if it is refused."""
 
 
 class PluginCommands:
-    """Runs commands; none of them waits for the printer."""
+    """Runs commands; none of them waits for the printer.
 
-    def __init__(self, recovery, fix_settings, fix_profile, restore):
+    ``machine`` runs those to the machine, ``settings`` and ``profile`` change OctoPrint's.
+    """
+
+    def __init__(self, machine, settings, profile):
+        def to_machine(name):
+            return lambda parameters: machine.run(name, parameters)
+
         self._commands = {
-            "recover": Command("PLUGIN_RRFMODEL_CONTROL", recovery.start, recovery.refusal),
-            "fix_settings": Command("SETTINGS", fix_settings),
-            "restore_settings": Command("SETTINGS", restore),
-            "fix_profile": Command("SETTINGS", fix_profile),
+            **{row.name: Command(CONTROL, to_machine(row.name)) for row in COMMANDS},
+            "fix_settings": Command("SETTINGS", lambda parameters: settings.fix()),
+            "restore_settings": Command("SETTINGS", lambda parameters: settings.restore()),
+            "fix_profile": Command("SETTINGS", lambda parameters: profile.fix()),
         }
 
     def names(self):
-        """Return the commands and the parameters that each has to have."""
+        """Return the commands; which parameters each has to have is seen to after permissions."""
         return {name: [] for name in self._commands}
 
-    def run(self, name):
+    def run(self, name, data):
         """Run a command; return the answer of one that is refused, ``None`` for 204."""
         command = self._commands[name]
-        if not getattr(Permissions, command.permission).can():
-            return refusal(403, gettext("You may not do that. Ask an administrator."))
-        why = command.refusal()
-        if why:
-            return refusal(409, why)
-        command.run()
-        return None
+        if not _may(command.permission):
+            return _may_not()
+        parameters = {key: value for key, value in data.items() if key != "command"}
+        refused = command.run(parameters)
+        return refusal(*refused) if refused else None
+
+    ##~~ octoprint.server.api.before_request
+
+    def refuse(self):
+        """Return an answer for a request that names no command, ``None`` for others.
+
+        OctoPrint would answer it before permissions, and some of them with an error of its own.
+        """
+        request = flask.request
+        if request.endpoint != ENDPOINT or (request.view_args or {}).get("name") != IDENTIFIER:
+            return None
+        data = request.get_json(silent=True)
+        name = data.get("command") if isinstance(data, dict) else None
+        if isinstance(name, str) and name in self._commands:
+            return None
+        if not _may(CONTROL):
+            return _may_not()
+        if not isinstance(name, str):
+            return refusal(400, command_text("not_a_command", {}))
+        known = {"command": shown(name), "known": listed(sorted(self._commands))}
+        return refusal(400, command_text("unknown_command", known))
+
+
+def _may(permission):
+    return getattr(Permissions, permission).can()
+
+
+def _may_not():
+    return refusal(403, gettext("You may not do that. Ask an administrator."))

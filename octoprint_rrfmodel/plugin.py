@@ -52,8 +52,10 @@ class RrfModelPlugin(
             lambda: self._settings,
             self.get_plugin_data_folder,
             lambda: self.bridge,
-            self._model,
+            self._machine,
             self._notice,
+            lambda: self._card.end_job(),
+            lambda key: self._worker.notify("refetch", key),
             clock,
         )
         self._worker = Worker(
@@ -66,6 +68,7 @@ class RrfModelPlugin(
                 "refused": lambda line: self._poller.refused(line),
                 "refused_operation": self._notice,
                 "heard": self._on_heard,
+                "refetch": lambda key: self._poller.hurry(key),
                 **self._protection.handlers,
             },
             [lambda: self._poller.tick(), lambda: self._push.tick()],
@@ -186,7 +189,7 @@ class RrfModelPlugin(
         return self._protection.commands.names()
 
     def on_api_command(self, command, data):
-        return self._protection.commands.run(command)
+        return self._protection.commands.run(command, data)
 
     ##~~ BlueprintPlugin
 

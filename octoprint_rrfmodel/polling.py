@@ -121,8 +121,10 @@ class Poller:
         self._queries.append((ModelRequest(key, flags), future))
         return future
 
-    def hurry(self):
-        """Ask as soon as may be: something has happened."""
+    def hurry(self, key=None):
+        """Ask as soon as may be: something has happened. ``key`` is fetched again, "" for all."""
+        if key is not None:
+            self._follower.refetch(key)
         self._hurries = self._poll is not None
         self._next_at = self._clock()
 

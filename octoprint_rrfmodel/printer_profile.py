@@ -32,8 +32,7 @@ class PrinterProfile:
             return None
         if _count(self._profiles().get_current_or_default()) < needed:
             return "profile_tools"
-        # 2.0 keeps the profile that the connection was made with
-        if _count(getattr(comm, "_printer_profile", None), needed) < needed:
+        if _count(profile_of(comm, self._profiles())) < needed:
             return "profile_reconnect"
         return None
 
@@ -71,12 +70,10 @@ class PrinterProfile:
         return max(Machine(self._model()).tools, default=-1) + 1
 
 
-def _is_as_raised(profile, old, new):
-    """Return whether the profile still has the number that was set, and no use for it."""
-    if _count(profile) != new:
-        return False
-    return all(tuple(offset) == NO_OFFSET for offset in profile["extruder"]["offsets"][old:])
+def profile_of(comm, profiles):
+    """Return the profile that a connection goes by: 2.0 keeps the one that it was made with."""
+    return getattr(comm, "_printer_profile", None) or profiles.get_current_or_default()
 
 
-def _count(profile, otherwise=0):
-    return profile["extruder"]["count"] if profile else otherwise
+def _count(profile):
+    return profile["extruder"]["count"]

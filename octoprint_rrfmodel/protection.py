@@ -9,6 +9,7 @@ from .boxes import UnanswerableBox
 from .changes import Changes
 from .commands import PluginCommands
 from .guard import PrintGuard
+from .machine_commands import MachineCommands
 from .octoprint_settings import OctoPrintSettings
 from .printer_profile import PrinterProfile
 from .printer_requests import RequestChecks
@@ -32,11 +33,27 @@ class Protection:
     """Builds the parts and hands on what happens.
 
     ``printer()``, ``profiles()`` and ``settings()`` are OctoPrint's, ``folder()`` is the plugin's
-    own. ``bridge()`` knows the connection, ``model()`` is the snapshot, ``notice(code, detail)``
-    reaches the pages.
+    own. ``bridge()`` knows the connection, ``machine()`` is the view of the model,
+    ``notice(code, detail)`` reaches the pages. ``end_job`` and ``refetch`` are those of
+    ``MachineCommands``.
     """
 
-    def __init__(self, printer, profiles, settings, folder, bridge, model, notice, clock):
+    def __init__(
+        self,
+        printer,
+        profiles,
+        settings,
+        folder,
+        bridge,
+        machine,
+        notice,
+        end_job,
+        refetch,
+        clock,
+    ):
+        def model():
+            return machine().model
+
         self._model = model
         self._box = UnanswerableBox(model, clock)
         self._settings = OctoPrintSettings(settings, Changes(folder, "changed_settings.json"))
@@ -67,11 +84,21 @@ class Protection:
             self._profile,
             self._box,
         )
-        self.commands = PluginCommands(
-            self._recovery, self._settings.fix, self._profile.fix, self.restore
+        self.machine = MachineCommands(
+            printer,
+            profiles,
+            bridge,
+            machine,
+            self._box,
+            self._recovery,
+            end_job,
+            refetch,
+            clock,
         )
-        self.refusals = [self.guard.refuse, RequestChecks(lambda: bridge().connection).refuse]
-        """What looks at each request to OctoPrint's API before it is answered."""
+        """Also called by other plugins."""
+        self.commands = PluginCommands(self.machine, self._settings, profile)
+        self.refusals = [self.guard.refuse, self.commands.refuse]
+        """What looks at requests to OctoPrint's API."""
         self.handlers = {
             "halted": self._recovery.halted,
             "print_resumed": self.guard.resumed,

@@ -106,6 +106,10 @@ class SdCard:
             return None
         return self._translate(cmd, gcode, tags)
 
+    def end_job(self):
+        """Return the lines that end the board's job, and see to it that they do."""
+        return self._job.cancel("M25").lines
+
     def _with_path(self, cmd, gcode, tags):
         """Return the command with the path that OctoPrint's name stands for."""
         name = cmd[len(gcode) :].strip().strip('"')
