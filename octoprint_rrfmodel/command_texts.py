@@ -42,8 +42,8 @@ def _of_requests():
             "The parameter %(parameter)s must not be empty and may have at most %(most)s bytes."
         ),
         "unsendable": gettext(
-            "The parameter %(parameter)s has a line break, a control character or a semicolon in it, which can't"
-            " be sent. Take it out."
+            "The parameter %(parameter)s has a line break, a control character or a semicolon in"
+            " it, which can't be sent. Take it out."
         ),
         "not_a_file": gettext("The parameter %(parameter)s has to be the path of a file."),
         "filament_name": gettext(
@@ -78,8 +78,8 @@ def _of_things():
         ),
         "no_such_object": gettext("The print has no object %(value)s. Its objects are: %(known)s."),
         "temperature": gettext(
-            "The parameter %(parameter)s has to be above %(low)s °C and below %(high)s °C, the limits of the"
-            " heater."
+            "The parameter %(parameter)s has to be above %(low)s °C and below %(high)s °C, the"
+            " limits of the heater."
         ),
         "outside": gettext("Axis %(axis)s has to be from %(low)s mm to %(high)s mm."),
         "no_heater": gettext("Tool %(tool)s has no heater."),

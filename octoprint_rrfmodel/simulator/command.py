@@ -23,11 +23,15 @@ _META = re.compile(r"\s*([a-z]+)\b(.*)", re.DOTALL)
 _HEAD = re.compile(r"\s*(?:([GMgm])\s*(\d+)(?:\.(\d+))?|([Tt])\s*(-?\d+(?![.\d])|\{[^}]*\})?)")
 """The start of a command; groups: letter, number, fraction, T, tool."""
 
-_NEXT = re.compile(r'"(?:[^"]|"")*"?|\{[^}]*\}?|\'.|[GMgm](?=\s*\d)')
+_IN_BRACES = r'(?:"(?:[^"]|"")*"(?!")|[^{}"])*'
+"""What may stand between braces besides further braces: braces in a text are none."""
+
+_NEXT = re.compile(rf'"(?:[^"]|"")*"?|\{{{_IN_BRACES}\}}?|\'.|[GMgm](?=\s*\d)')
 """What matters for finding the next command; only a letter that isn't quoted starts one."""
 
 _PARAMETER = re.compile(
-    r"""\s*('?[A-Za-z])\s*((?:"(?:[^"]|"")*")|(?:\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\})|"""
+    r"""\s*('?[A-Za-z])\s*((?:"(?:[^"]|"")*")|"""
+    rf"""(?:\{{{_IN_BRACES}(?:\{{{_IN_BRACES}\}}{_IN_BRACES})*\}})|"""
     r"""(?:[^\s"{}A-Za-z']+(?:[eE][-+]?\d+(?![\d.]))?))?"""
 )
 """One parameter; groups: letter with its apostrophe, value as written."""

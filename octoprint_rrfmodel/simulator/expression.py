@@ -13,6 +13,9 @@ _TOKEN = re.compile(
 )
 """One token; the group that matched is its kind."""
 
+_APOSTROPHE = re.compile(r"'([A-Za-z'])")
+"""What an apostrophe in a text changes: the letter behind it, and itself doubled."""
+
 _LITERALS = {"true": True, "false": False, "null": None}
 
 _BINARY = (
@@ -103,7 +106,8 @@ class _Parser:
         if kind == "number":
             return int(text) if text.isdigit() else float(text)
         if kind == "text":
-            return text[1:-1].replace('""', '"')
+            # as outside of expressions (RRF 3.5 ExpressionParser.cpp, ParseQuotedString)
+            return _APOSTROPHE.sub(lambda m: m[1].lower(), text[1:-1].replace('""', '"'))
         if kind == "name":
             return _LITERALS[text] if text in _LITERALS else self._lookup(text)
         if text == "(":

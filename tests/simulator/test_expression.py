@@ -20,6 +20,8 @@ VALUES = {
     "parentheses": ("{(1 + 2) * 3}", 9),
     "minus": ("{-2 - -3}", 1),
     "text": ('{"a" ^ "b"}', "ab"),
+    "quotes in a text": ("""{"it''s ""'A'B""" + '"""}', """it's "ab\""""),
+    "braces in a text": ('{"{a}" ^ "}"}', "{a}}"),
     "number in a text": ('{"a" ^ 1.50}', "a1.5"),
     "comparison": ("{2 >= 1 && 1 != 2}", True),
     "not": ("{!true}", False),

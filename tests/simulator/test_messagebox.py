@@ -111,6 +111,7 @@ ANSWERS = {
     "integer too large": ("S5 L1 H10", "M292 R11 S1", False, None),
     "float": ("S6 L0.5 H2.5", "M292 R1.25 S1", True, 1.25),
     "text": ("S7 L1 H5", 'M292 R"abc" S1', True, "abc"),
+    "text in braces": ("S7 H30", 'M292 P0 R{"it\'\'s ""}"" M5"} S1', True, 'it\'s "}" M5'),
     "text too long": ("S7 L1 H5", 'M292 R"abcdef" S1', False, None),
     "number for a text": ("S7", "M292 R5 S1", False, None),
     "no value": ("S5", "M292 S1", False, None),
