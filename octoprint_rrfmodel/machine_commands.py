@@ -4,6 +4,7 @@ import threading
 
 from .command_texts import command_text
 from .printer_profile import profile_of
+from .rrf.blocking import blocks
 from .rrf.commands import Refusal, Situation, root_of, translate
 from .rrf.gcode import words
 
@@ -47,10 +48,11 @@ class MachineCommands:
     ``printer()`` and ``profiles()`` are OctoPrint's. ``bridge()`` knows the connection,
     ``machine()`` is the view of the model. ``box`` knows of boxes that nobody can answer.
     ``recovery`` restarts the board. ``end_job()`` gives the lines that end the board's job.
-    ``refetch(key)`` only takes note that a key is to be fetched again, "" for all.
+    ``look(key)`` only takes note that the printer is to be asked soon, and for a key again, ""
+    for all, ``None`` for none.
     """
 
-    def __init__(self, printer, profiles, bridge, machine, box, recovery, end_job, refetch, clock):
+    def __init__(self, printer, profiles, bridge, machine, box, recovery, end_job, look, clock):
         self._printer = printer
         self._profiles = profiles
         self._bridge = bridge
@@ -58,7 +60,7 @@ class MachineCommands:
         self._box = box
         self._recovery = recovery
         self._end_job = end_job
-        self._refetch = refetch
+        self._look = look
         self._rate = Rate(clock)
 
     def command(self, name, /, **parameters):
@@ -81,12 +83,17 @@ class MachineCommands:
         if not self._rate.allows():
             return 409, command_text("too_many", {})
         if name == "refresh":
-            self._refetch(root_of(parameters.get("key") or ""))
+            self._look(root_of(parameters.get("key") or ""))
             return None
         action = parameters.get("action") if name == "job" else None
         lines = self._end_job() if action == "cancel" else outcome.lines
         tags = {COMMAND_TAG, NOT_PAUSING[action]} if action in NOT_PAUSING else {COMMAND_TAG}
-        self._printer().commands([self._carried(line, machine) for line in lines], tags=tags)
+        carried = [self._carried(line, machine) for line in lines]
+        self._printer().commands(carried, tags=tags)
+        # what has come of it is asked at once where that costs nobody time: a print's lines would
+        # wait, and behind a command that blocks the question comes soon enough
+        if not self._bridge().is_streaming_a_print() and not any(map(blocks, carried)):
+            self._look(None)
         return None
 
     def _recover(self):

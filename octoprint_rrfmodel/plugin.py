@@ -55,7 +55,7 @@ class RrfModelPlugin(
             self._machine,
             self._notice,
             lambda: self._card.end_job(),
-            lambda key: self._worker.notify("refetch", key),
+            lambda key: self._worker.notify("look", key),
             clock,
         )
         self._worker = Worker(
@@ -68,7 +68,7 @@ class RrfModelPlugin(
                 "refused": lambda line: self._poller.refused(line),
                 "refused_operation": self._notice,
                 "heard": self._on_heard,
-                "refetch": lambda key: self._poller.hurry(key),
+                "look": lambda key: self._poller.hurry(key),
                 **self._protection.handlers,
             },
             [lambda: self._poller.tick(), lambda: self._push.tick()],

@@ -34,7 +34,7 @@ class Protection:
 
     ``printer()``, ``profiles()`` and ``settings()`` are OctoPrint's, ``folder()`` is the plugin's
     own. ``bridge()`` knows the connection, ``machine()`` is the view of the model,
-    ``notice(code, detail)`` reaches the pages. ``end_job`` and ``refetch`` are those of
+    ``notice(code, detail)`` reaches the pages. ``end_job`` and ``look`` are those of
     ``MachineCommands``.
     """
 
@@ -48,7 +48,7 @@ class Protection:
         machine,
         notice,
         end_job,
-        refetch,
+        look,
         clock,
     ):
         def model():
@@ -92,7 +92,7 @@ class Protection:
             self._box,
             self._recovery,
             end_job,
-            refetch,
+            look,
             clock,
         )
         """Also called by other plugins."""

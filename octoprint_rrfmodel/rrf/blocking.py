@@ -38,3 +38,13 @@ TARGETING = frozenset(("G10", "M104", "M109", "M140", "M141", "M190", "M191", "M
 
 SETTLING = BLOCKING | {"M18", "M84", "G92", "M120", "M564"}
 """Commands after which what was known of axes, heaters and tools may be wrong."""
+
+
+def blocks(line: str) -> bool:
+    """Return whether a line begins with a command that blocks.
+
+    >>> blocks("T-1"), blocks('M98 P"a.g"'), blocks("M106 S1")
+    (True, True, False)
+    """
+    first = line.split(None, 1)[0]
+    return first in BLOCKING or first.startswith("T")

@@ -55,6 +55,7 @@ class ModelPlan:
         self._begin()
 
     def _begin(self) -> None:
+        self._request: ModelRequest | None = None
         self._counters: Mapping[str, Any] | None = None
         self._asked: dict[str, Any] = {}
         self._keys: list[str] | None = None
@@ -85,6 +86,11 @@ class ModelPlan:
 
     def next_request(self) -> Request:
         """Return what to ask now; the same again until it was answered or given up."""
+        if self._request is None:
+            self._request = self._choose()
+        return self._request
+
+    def _choose(self) -> ModelRequest:
         if self._counters is None:
             return ModelRequest(SEQS, LIVE_FLAGS)
         if self._keys is None:
@@ -105,6 +111,7 @@ class ModelPlan:
 
     def take(self, reply: ModelReply) -> list[Update]:
         """Take the answer to ``next_request``; return what it adds to the model."""
+        self._request = None
         self._failures = self._short = 0
         if self._counters is None:
             self._counters = reply.result if isinstance(reply.result, dict) else {}
@@ -128,6 +135,7 @@ class ModelPlan:
         Where one key fails again and again the others get their turn, and so do keys that wait
         where live values fail.
         """
+        self._request = None
         self._failures += 1
         if self._failures < PATIENCE:
             return
@@ -142,6 +150,7 @@ class ModelPlan:
 
     def no_buffers(self) -> None:
         """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests."""
+        self._request = None
         self._short += 1
         if self._short < 2:
             return

@@ -30,6 +30,7 @@ class StatusPlan:
 
     def _begin(self) -> None:
         self._model = M408Model()
+        self._form: int | None = None
         self._untried = list(FORMS)
         self._again: list[int] = []
         self._answered: set[int] = set()
@@ -60,30 +61,39 @@ class StatusPlan:
 
     def next_request(self) -> Request:
         """Return what to ask now; the same again until it was answered or given up."""
+        if self._form is None:
+            self._form = self._choose()
+        return StatusRequest(self._form)
+
+    def _choose(self) -> int:
         if self.behind:
-            return StatusRequest((self._untried or self._again)[0])
+            return (self._untried or self._again)[0]
         settings = 3 if 3 in self._answered else 1
         status = 4 if self._printing else 2
         if status not in self._answered:
             status = 2 if 2 in self._answered else 0
         if self._asked % SETTINGS_EVERY == 0 and settings in self._answered:
-            return StatusRequest(settings)
-        return StatusRequest(status)
+            return settings
+        return status
 
     def take(self, reply: StatusReply) -> list[Update]:
         """Take the answer to ``next_request``; return the model's keys as they now are."""
+        form, self._form = self._form, None
         self._failures = 0
         self._asked += 1
-        if self.behind:
-            self._answered.add((self._untried or self._again).pop(0))
+        waiting = self._untried or self._again
+        if waiting and form in (None, waiting[0]):
+            self._answered.add(waiting.pop(0))
         model = self._model.take(reply.fields)
         return [Update(key, value) for key, value in model.items()]
 
     def failed(self) -> None:
         """Note that ``next_request`` brought nothing that could be used."""
+        form, self._form = self._form, None
         self._failures += 1
-        if self._failures >= PATIENCE and self.behind:
-            (self._untried or self._again).pop(0)
+        waiting = self._untried or self._again
+        if self._failures >= PATIENCE and waiting and form in (None, waiting[0]):
+            waiting.pop(0)
             self._failures = 0
 
     def no_buffers(self) -> None:
@@ -103,5 +113,5 @@ class StatusPlan:
         return False
 
     def refetch(self, key: str = "") -> None:
-        """Ask each form again: none of them is one key. Those answered so far stay known."""
-        self._again = [form for form in FORMS if form not in self._untried]
+        """Ask each form again that was answered: none of them is one key."""
+        self._again = [form for form in FORMS if form in self._answered]

@@ -250,7 +250,7 @@ TABLE = [
         "filament",
         {"action": "load", "name": "PLA"},
         "cartesian",
-        VERSIONS,
+        FROM_33,
         {},
         ['M701 S"PLA"', "M703"],
     ),
@@ -262,12 +262,13 @@ TABLE = [
         LOADED,
         ["M702", 'M701 S"PET G"', "M703"],
     ),
+    # M408 tells of a filament too late
     (
         "filament",
         {"action": "load", "name": "PETG"},
         "cartesian",
         OLD,
-        {"tools[0].filament": "PLA"},
+        {},
         ["M702", 'M701 S"PETG"', "M703"],
     ),
     ("filament", {"action": "unload"}, "cartesian", VERSIONS, {}, ["M702"]),

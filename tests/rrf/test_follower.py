@@ -243,6 +243,23 @@ def test_refetch_asks_again(key):
     assert (follower.store.model["limits"]["axes"] == 11) is (key in ("", "limits"))
 
 
+@pytest.mark.parametrize("behind", [False, True], ids=["live", "key"])
+def test_refetch_while_a_request_is_under_way(behind):
+    """The answer that is on its way is one; the key's turn comes afterwards."""
+    board = Board()
+    follower = following(board)
+    if behind:
+        follower.refetch("limits")
+    request = follower.next_request()
+    follower.refetch("tools")
+    board.model["tools"][0]["name"] = "changed without a word"
+    assert follower.next_request() == request
+    assert follower.take(board.reply(request)) is not None
+    serve(follower, board, 4)
+    assert follower.store.model["tools"] == board.model["tools"]
+    assert follower.counters["malformed"] == follower.counters["timeouts"] == 0
+
+
 def test_refetch_of_an_unknown_key_asks_nothing():
     board = Board()
     follower = following(board)

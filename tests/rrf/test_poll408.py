@@ -194,6 +194,27 @@ def test_refetch_asks_each_form_again_and_stays_ready():
     assert not follower.behind
 
 
+def test_refetch_while_a_request_is_under_way_takes_its_answer_for_what_it_is():
+    board = OldBoard()
+    follower = following(board)
+    request = follower.next_request()
+    follower.refetch()
+    assert follower.next_request() == request
+    follower.take(board.reply(request))
+    asked = len(board.asked)
+    run(follower, board, 6)
+    assert set(board.forms_asked(asked)) == set(range(6))
+
+
+def test_refetch_asks_only_forms_that_the_firmware_has():
+    board = OldBoard(forms=(0, 1))
+    follower = following(board)
+    asked = len(board.asked)
+    follower.refetch()
+    run(follower, board, 6)
+    assert set(board.forms_asked(asked)) == {0, 1}
+
+
 @pytest.mark.parametrize("after", range(6))
 def test_refetch_before_all_forms_were_tried_leaves_none_out(after):
     board, follower = OldBoard(), Follower()

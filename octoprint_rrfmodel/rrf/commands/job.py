@@ -107,12 +107,13 @@ def filament(request: Request) -> Sequence[str]:
     if values["action"] == "unload":
         return ["M702"]
     extruders = array(mapping(machine.model.get("move")).get("extruders"))
-    of_extruder = (
-        mapping(extruders[drive]) if isinstance(drive, int) and drive < len(extruders) else {}
-    )
-    # told with the tool by firmware without M409
-    loaded = of_extruder.get("filament", tool.get("filament"))
-    return [*(["M702"] if loaded else []), f"M701 S{quoted(name)}", "M703"]
+    load = [f"M701 S{quoted(name)}", "M703"]
+    if isinstance(drive, int) and drive < len(extruders):
+        is_loaded = bool(mapping(extruders[drive]).get("filament"))
+    else:
+        # without M409 nobody tells in time what is loaded; to unload nothing does nothing
+        is_loaded = True
+    return ["M702", *load] if is_loaded else load
 
 
 def macro(request: Request) -> Sequence[str]:
