@@ -10,7 +10,7 @@ from .rrf.heard import TELLING, heard
 from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
 from .rrf.unsendable import GCODES as UNSENDABLE
 from .rrf.wording import BEGINNINGS, LIST_BEGINS
-from .surplus import SurplusOk
+from .surplus import SurplusOk, count_ok
 
 POLL_TAG = "trigger:rrfmodel.poll"
 FILE_TAG = "source:file"
@@ -217,6 +217,7 @@ class CommBridge:
             return None
         if gcode is None and cmd.startswith("T"):
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
+            count_ok(comm)
         self._awaited = gcode
         self._surplus.sending(cmd, gcode)
         if gcode in TARGETING or cmd in self._targets:

@@ -16,9 +16,19 @@ RATE = 20.0
 BURST = 30
 """Commands that may come at once."""
 
-NOT_PAUSING = {"pause": "trigger:pause", "cancel": "trigger:cancel"}
-"""Action of ``job`` to the tag without which OctoPrint pauses its own job too at an M25; it finds
-out what has become of the print from the model."""
+OWN_JOB = {
+    "pause": ("pause_print", lambda comm: comm.isPrinting()),
+    "resume": ("resume_print", lambda comm: comm.isPaused()),
+    "cancel": ("cancel_print", lambda comm: comm.isPrinting() or comm.isPaused()),
+}
+"""Action of ``job`` to the method of OctoPrint's printer that does it to a print from the card, and
+whether it does anything in the connection's state."""
+
+SLOTS = (
+    ("M140 ", "heatedBed", "bedHeaters"),
+    ("M141 ", "heatedChamber", "chamberHeaters"),
+)
+"""Command, what OctoPrint's printer profile calls the heater, and its slots in the model."""
 
 
 class Rate:
@@ -85,16 +95,27 @@ class MachineCommands:
         if name == "refresh":
             self._look(root_of(parameters.get("key") or ""))
             return None
-        action = parameters.get("action") if name == "job" else None
-        lines = self._end_job() if action == "cancel" else outcome.lines
-        tags = {COMMAND_TAG, NOT_PAUSING[action]} if action in NOT_PAUSING else {COMMAND_TAG}
+        self._send(name, parameters, outcome.lines, machine)
+        return None
+
+    def _send(self, name, parameters, lines, machine):
+        """Give the lines to OctoPrint's queue, or let OctoPrint do what it can do by itself."""
+        if name == "job" and parameters["action"] in OWN_JOB:
+            method, does_it = OWN_JOB[parameters["action"]]
+            comm = self._bridge().connection
+            # what it shows as its own print must not end behind its back: it would cancel whatever
+            # is printed by then
+            if comm is not None and comm.isSdFileSelected() and does_it(comm):
+                getattr(self._printer(), method)()
+                return
+            if parameters["action"] == "cancel":
+                lines = self._end_job()
         carried = [self._carried(line, machine) for line in lines]
-        self._printer().commands(carried, tags=tags)
+        self._printer().commands(carried, tags={COMMAND_TAG})
         # what has come of it is asked at once where that costs nobody time: a print's lines would
         # wait, and behind a command that blocks the question comes soon enough
         if not self._bridge().is_streaming_a_print() and not any(map(blocks, carried)):
             self._look(None)
-        return None
 
     def _recover(self):
         why = self._recovery.refusal()
@@ -115,25 +136,18 @@ class MachineCommands:
         )
 
     def _carried(self, line, machine):
-        """Return a line in a form in which OctoPrint sends it, counts its ok and shows no more.
+        """Return a line in a form that OctoPrint sends and shows nothing wrong of.
 
-        T-1 is no command to it, and a tool, a bed or a chamber that its printer profile hasn't got
-        is dropped. Behind another command on the same line it looks at none of them.
+        It drops what its printer profile has no bed or chamber for, and shows the target of any
+        slot as that of the first. Behind another command on the same line it looks at neither.
         """
         comm = self._bridge().connection
-        if comm is None:
-            return line
-        if line.startswith("T"):
-            number = int(line[1:])
-            # the profile of this connection and what OctoPrint has learnt; both versions have it
-            return line if number >= 0 and comm._validate_tool(number) else f"M400 {line}"
-        for code, part, kind in (
-            ("M140 ", "heatedBed", "bedHeaters"),
-            ("M141 ", "heatedChamber", "chamberHeaters"),
-        ):
-            if line.startswith(code):
-                # it would show the target of any slot as that of the first
+        for code, part, kind in SLOTS:
+            if comm is not None and line.startswith(code):
                 is_first = words(line).get("P") == machine.slot(kind)
                 is_known = profile_of(comm, self._profiles())[part]
                 return line if is_first and is_known else f"M120 {line} M121"
+        if comm is not None and line.startswith("T") and not comm._validate_tool(int(line[1:])):
+            # the model has the tool, whatever number of extruders the printer profile has
+            comm._sanity_check_tools = False
         return line

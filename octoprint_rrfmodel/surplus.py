@@ -4,6 +4,10 @@ The last command on the line has been read already when the move before it fails
 acknowledged too, in the very next line (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80).
 """
 
+COUNTS_ALL = ("_unknownCommandsNeedAck", "_unknown_commands_need_ack")
+"""Attribute of OctoPrint's connection, in 1.11 and in 2.0: whether it waits for an ok behind what
+it takes for no command."""
+
 BLAMED = ("M121", "G0/G1")
 """What the error of such a move names: the command behind it from 3.5 on, before that the move."""
 
@@ -31,3 +35,12 @@ class SurplusOk:
         elif line.startswith("Error:") and any(blamed in line for blamed in BLAMED):
             self.awaits = "ok"
         return False
+
+
+def count_ok(comm):
+    """Let OctoPrint wait for the ok of a line that is about to go out and no command to it.
+
+    The board acknowledges ``T-1`` too; OctoPrint would take that ok for another line's.
+    """
+    if not any(getattr(comm, name, False) for name in COUNTS_ALL):
+        comm._clear_to_send.clear()

@@ -202,7 +202,12 @@ def wait_equal(server, board, seconds=SETTLED_SECONDS):
 
 def commands(board):
     """Return the G-codes received on USB, without line numbers and checksums."""
-    return [NUMBERED.match(text)["command"].strip() for text in board.board.received()]
+    return commands_of(board.board)
+
+
+def commands_of(board):
+    """As ``commands``, for the board without its port."""
+    return [NUMBERED.match(text)["command"].strip() for text in board.received()]
 
 
 def is_poll(command):
