@@ -90,7 +90,8 @@ class SdJob:
         hides = (
             self._cancelled_at is not None or comm.isPaused() or (is_other and not comm.isBusy())
         )
-        return Situation(opened, comm.isSdPrinting(), hides, job)
+        names_file = bool(comm._sdFileToSelect)
+        return Situation(opened, names_file, comm.isSdPrinting(), hides, job)
 
     def news(self, comm, index):
         """Follow the board; return lines that tell OctoPrint of what it can't know."""

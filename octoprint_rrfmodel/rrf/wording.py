@@ -16,6 +16,8 @@ class Situation(NamedTuple):
 
     opened: tuple[str, int] | None = None
     """Alias and size of the file that was last asked for."""
+    names_file: bool = False
+    """Whether the host itself has asked for a file, and knows its name."""
     shows_print: bool = False
     """Whether the host shows a print from the card as going on."""
     hides_print: bool = False
@@ -47,7 +49,7 @@ def _always(text: str) -> Wording:
 
 def _opened(found: re.Match[str], situation: Situation) -> str | None:
     if situation.opened is None:
-        return None
+        return None if situation.names_file else "// File opened"
     alias, size = situation.opened
     return f"File opened: {alias} Size: {size}"
 
@@ -96,7 +98,7 @@ ROWS = (
         re.compile(r"File opened\s*$"),
         _opened,
         "M23 and M32 tell neither name nor size (3.5 GCodes2.cpp:1041); a host that shows a job"
-        " has to know both.",
+        " has to know both. OctoPrint 2.0 ends the connection over a file that it doesn't list.",
     ),
     Row(
         "not_printing",

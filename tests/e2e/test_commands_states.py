@@ -178,7 +178,7 @@ def test_job_from_its_beginning_to_its_end(ready, server, firmware):
     # OctoPrint shows it as its own
     server.wait_state("Printing from SD", 20)
     helpers.wait_value(server, "job.build.objects", bool, 60)
-    machine.board.speed = 3.0
+    machine.board.speed = 8.0
     assert ask(server, "object", index=0, action="cancel").status_code == 204
     helpers.wait_value(server, "job.build.objects[0].cancelled", True, 5)
     assert ask(server, "object", index=0, action="resume").status_code == 204
@@ -188,7 +188,7 @@ def test_job_from_its_beginning_to_its_end(ready, server, firmware):
     assert ask(server, "job", action="pause").status_code == 204
     wait_status(server, "paused")
     server.wait_state("Paused", 20)
-    machine.settle()
+    helpers.wait_polls(server, 8)
     assert_forbidden(ask(server, "job", action="pause"))
     assert helpers.commands_of(machine.board).count("M25") == 1
     assert ask(server, "job", action="resume").status_code == 204
@@ -198,7 +198,7 @@ def test_job_from_its_beginning_to_its_end(ready, server, firmware):
     wait_status(server, "idle")
     server.wait_state("Operational", 10)
     assert not job.is_printing
-    machine.settle()
+    helpers.wait_polls(server, 8)
     # cancel.g ran, and nothing of it was seen as an error that ends the connection
     assert machine.board.model["heat"]["heaters"][1]["active"] == 0
     assert_forbidden(ask(server, "job", action="cancel"))

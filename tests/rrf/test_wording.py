@@ -29,7 +29,8 @@ CASES = {
     "released": [("SD card 0 may now be removed", Situation(), "SD card released")],
     "opened": [
         ("File opened", OPENED, "File opened: two_uidj.gco Size: 667"),
-        ("File opened", Situation(), None),
+        ("File opened", Situation(names_file=True), None),
+        ("File opened", Situation(), "// File opened"),
         ("File opened: a.gco Size: 5", OPENED, None),
     ],
     "not_printing": [
