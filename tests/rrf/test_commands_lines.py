@@ -1,5 +1,7 @@
 """What goes out for each command, by firmware."""
 
+from pathlib import Path
+
 import pytest
 
 from octoprint_rrfmodel.rrf.commands import COMMANDS, translate
@@ -338,3 +340,21 @@ def test_news_that_are_old_leave_it_to_the_firmware():
     assert go("job", machine, action="resume") == ["M24"]
     unhomed = on(is_current=False, **{"move.axes[0].homed": False})
     assert go("jog", unhomed, axes={"X": 1}) == ["M120 G21 G91 G1 X1 M121"]
+
+
+def test_every_command_is_documented():
+    text = (Path(__file__).parents[2] / "docs" / "commands.md").read_text(encoding="utf-8")
+    first = [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("| `")]
+    names = [cell.strip("`") for cell in first if cell.startswith("`")]
+    known = [command.name for command in COMMANDS]
+    without_lines = {"refresh", "recover"}
+    assert names == [*known, *(name for name in known if name not in without_lines)]
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+def test_every_parameter_is_documented(command):
+    text = (Path(__file__).parents[2] / "docs" / "commands.md").read_text(encoding="utf-8")
+    (row, *_) = (line for line in text.splitlines() if line.startswith(f"| `{command.name}` |"))
+    # a chamber is as a bed
+    for parameter in command.parameters if command.name != "chamber" else ():
+        assert f"`{parameter.name}`" in row
