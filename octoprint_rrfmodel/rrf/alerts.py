@@ -78,7 +78,9 @@ def _monitors(model: Model) -> Iterator[tuple[int, ...]]:
         # 0 is off, 1 while printing, 2 always; before 3.5 a truth value
         is_on = monitor.get("enableMode", monitor.get("enabled"))
         is_fed = not isinstance(fed, list) or number in fed
-        if is_on and is_fed and monitor.get("status") not in FEEDING:
+        status = monitor.get("status")
+        feeds = isinstance(status, (str, type(None))) and status in FEEDING
+        if is_on and is_fed and not feeds:
             yield (number,)
 
 

@@ -31,6 +31,23 @@ _NONSENSE = (TypeError, ValueError, LookupError, ArithmeticError, AttributeError
 MOST_HEATERS = 64
 """A heater's number from here on is a spoilt one; no firmware has as many."""
 
+OF_A_JOB = frozenset(
+    (
+        "currentLayer",
+        "currentLayerTime",
+        "filePosition",
+        "firstLayerDuration",
+        "fractionPrinted",
+        "printDuration",
+        "timesLeft",
+        "warmUpDuration",
+    )
+)
+"""Members that S4 has while something is printed; once it has ended they are merely missing."""
+
+WITHOUT_JOB = ("C", "F", "H", "I", "O")
+"""Letters of S2 and above with which nothing is printed."""
+
 
 class M408Model:
     """Collects the forms that come and gives the model they make."""
@@ -48,7 +65,8 @@ class M408Model:
                 self._legacy = _without_box(self._legacy)
         elif "status" in fields:
             # a box, a beep and a message are only there while they last
-            lasting = {name: value for name, value in self._status.items() if name != "output"}
+            gone = {"output"} if fields["status"] not in WITHOUT_JOB else {"output", *OF_A_JOB}
+            lasting = {name: value for name, value in self._status.items() if name not in gone}
             self._status = patched(lasting, fields)[0]
             self._legacy = _without_box(self._legacy)
         else:

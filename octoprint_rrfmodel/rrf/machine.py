@@ -69,7 +69,7 @@ class Machine:
         tools = {}
         for tool in array(self._model.get("tools")):
             number = mapping(tool).get("number")
-            if isinstance(number, int):
+            if type(number) is int:
                 tools[number] = tool
         return tools
 

@@ -54,6 +54,10 @@ FOUND = [
     *((drivers(1 << bit), []) for bit in (0, 6, 7, 8, 10, 12, 16, 20)),
     (drivers(2, canAddress=121), ["driver_error_121_0"]),
     ({"state": None, "heat": [], "sensors": {"filamentMonitors": {}}, "boards": [None]}, []),
+    (
+        {"sensors": {"filamentMonitors": [{"status": [], "enableMode": 1}]}},
+        ["filament_error_0"],
+    ),
     ({}, []),
 ]
 

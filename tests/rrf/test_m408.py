@@ -337,3 +337,14 @@ def test_member_of_an_odd_kind_is_harmless(form, field):
         model = M408Model()
         model.take(reply)
         model.take(status())
+
+
+PRINTED = {"filePosition": 500, "printDuration": 12, "timesLeft": {"file": 30}, "currentLayer": 3}
+
+
+@pytest.mark.parametrize("letter, stays", [("P", True), ("S", True), ("B", True), ("I", False)])
+def test_members_of_a_job_end_with_it(letter, stays):
+    model = taken(status(status="P", **PRINTED), status(status=letter))
+    job = model.get("job", {})
+    assert (job.get("filePosition"), job.get("duration")) == ((500, 12) if stays else (None, None))
+    assert (job.get("timesLeft", {}).get("file") == 30) is stays
