@@ -179,7 +179,7 @@ class Job:
         if not self.is_printing:
             return
         job = self.data
-        job["duration"] = int(self.duration + self._pause_seconds)
+        job["duration"] = int(self.duration)
         job["pauseDuration"] = int(self._pause_seconds)
         if self._warm_up is None:
             job["warmUpDuration"] = int(self.duration)

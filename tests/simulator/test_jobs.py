@@ -90,6 +90,8 @@ def test_pause_and_resume(printing):
     printing.wait(30)
     assert printing.board.job.position == before
     assert printing.ask("job.pauseDuration") >= 30
+    # without the pauses (3.5 PrintMonitor.cpp, GetPrintDuration)
+    assert printing.ask("job.duration") == int(printing.board.job.duration)
     assert printing.send("M25") == "Error: M25: Printing is already paused!\nok\n"
     assert printing.send("M24") == ""
     assert printing.status == "resuming"
