@@ -134,6 +134,14 @@ class _Query:
             shallow = not self.key and not self.lengths and (firmware or not flags.live)
             depth = 1 if shallow else EVERY_LEVEL
         self.depth = depth
+        # then there is nothing to leave out, and a snapshot needs no copy
+        self.is_everything = (
+            not (flags.live or self.lengths or firmware)
+            and flags.verbose
+            and flags.nulls
+            and flags.obsolete
+            and depth >= EVERY_LEVEL
+        )
 
     def result(self, model: Any, tree: _Marked, envelope: dict[str, Any]) -> dict[str, Any]:
         """Return ``result``, and ``next`` where the first thing written is an array."""
@@ -203,6 +211,8 @@ class _Query:
             return None  # an object has no length, and is not entered to find that out
         if opened >= self.depth:
             return {}
+        if self.is_everything:
+            return value
         return {
             name: self.value(member, "", node.get(name, _UNMARKED), opened + 1)
             for name, member in value.items()

@@ -425,3 +425,10 @@ def test_absurd_numbers_are_out_of_range(digits):
     assert evaluated(f"hotList[{number}]", "")["result"] is None
     assert evaluated("hotList", f"a{number}d{number}")["key"] == "hotList"
     assert evaluated(f"hotList[{'0' * digits}]", "")["result"] == {"hot": 1, "cold": 2}
+
+
+def test_whole_of_a_snapshot_is_not_copied():
+    model = {"heat": {"heaters": [None, {"current": 20.0}]}}
+    assert answer(model, "heat", "d99vno")["result"] is model["heat"]
+    assert answer(model, "heat", "d98vno")["result"] == model["heat"]
+    assert answer(model, "heat", "d2vno")["result"] == {"heaters": [None, {}]}
