@@ -109,13 +109,13 @@ def wanted_of(objects: Any) -> dict[str, tuple[str, ...] | None]:
     texts.
     """
     if not isinstance(objects, Mapping):
-        raise ValueError("objects has to hold names of objects, each with null or a list of fields")
+        raise ValueError("Objects are given by name, each with null or a list of its fields.")
     wanted: dict[str, tuple[str, ...] | None] = {}
     for name, fields in objects.items():
         if not isinstance(name, str):
-            raise ValueError(f"the name of an object has to be a text, {name!r} is none")
+            raise ValueError(f"The name of an object is a text, and {name!r} is none.")
         if fields is not None and not _are_texts(fields):
-            raise ValueError(f"the fields of {name!r} have to be null or a list of names")
+            raise ValueError(f"The fields of {name!r} are null or a list of names.")
         wanted[name] = tuple(fields) if fields else None
     return wanted
 
