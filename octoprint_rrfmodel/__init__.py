@@ -16,4 +16,4 @@ def __plugin_load__():
     global __plugin_implementation__, __plugin_hooks__, __plugin_helpers__
     __plugin_implementation__ = RrfModelPlugin()
     __plugin_hooks__ = hooks_of(__plugin_implementation__)
-    __plugin_helpers__ = {}
+    __plugin_helpers__ = __plugin_implementation__.parts.helpers.by_name()

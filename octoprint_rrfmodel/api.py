@@ -1,13 +1,18 @@
 """The HTTP endpoints that answer from what is known; none of them waits for the printer."""
 
 import json
+from pathlib import Path
 
 import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from .rrf import m409
+from .rrf.metrics import CONTENT_TYPE, exposition
 from .rrf.request import FLAGS_LENGTH, KEY_LENGTH
+
+DESCRIPTION = Path(__file__).with_name("openapi.json")
+"""The OpenAPI description of all endpoints."""
 
 
 def answer(data, status=200):
@@ -52,6 +57,21 @@ class ModelApi:
         key = arguments.get("key", "")
         flags = arguments.get("flags", "")
         return answer(m409.answer(model, key, flags))
+
+    def get_metrics(self):
+        """Return the model and the plugin's state in Prometheus' text format."""
+        if not may_read():
+            return refusal(403, gettext("You may not read the machine's model."))
+        text = exposition(self._model(), self._status())
+        return flask.Response(text, content_type=CONTENT_TYPE)
+
+    def get_openapi(self):
+        """Return the description of all this in OpenAPI's form."""
+        if not may_read():
+            return refusal(403, gettext("You may not read the machine's model."))
+        description = json.loads(DESCRIPTION.read_text(encoding="utf-8"))
+        description["info"]["version"] = self._status()["version"]
+        return answer(description)
 
     def why_empty(self):
         """Return why no model is known."""

@@ -11,14 +11,12 @@ from .rrf.line import VOLTAGE_WARNING, find_reply, without_warning
 from .rrf.unsendable import GCODES as UNSENDABLE
 from .rrf.wording import BEGINNINGS, LIST_BEGINS
 from .surplus import SurplusOk, count_ok
+from .tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
+from .terminal import RecentPolls
 
-POLL_TAG = "trigger:rrfmodel.poll"
-FILE_TAG = "source:file"
 ATTENDED = TELLING | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
 """First letters of lines that are looked at; most lines begin otherwise and cost little."""
 
-POLL_TYPE = "rrfmodel_poll"
-STATUS_TAG = "trigger:rrfmodel.status"
 
 SWALLOWED = "// rrfmodel"
 """Stands for a line that was ours: counts as a sign of life and is parsed no further."""
@@ -43,15 +41,17 @@ class CommBridge:
     ``None`` to leave it as it is. ``card.reword(line)`` gives a line in words that OctoPrint
     knows, ``card.fill()`` one in the place of a line that was the plugin's alone.
     ``show_target(heater, target)`` shows the target that a translated command sets.
+    ``sent(cmd, tags)`` is told of commands that are neither a file's nor the plugin's polls.
     """
 
-    def __init__(self, notify, translate, card, show_target, instead, guards, clock):
+    def __init__(self, notify, translate, card, show_target, instead, guards, sent, clock):
         self._notify = notify
         self._translate = translate
         self._card = card
         self._show_target = show_target
         self._instead = instead
         self._guards = guards
+        self._sent = sent
         self._clock = clock
         self._comm = None
         self._is_rrf = False
@@ -60,7 +60,7 @@ class CommBridge:
         """When OctoPrint last sent a command that selects a tool."""
         self.target_command_at = 0.0
         """When OctoPrint last sent a command that gives a heater a target."""
-        self._polled = set()
+        self._polled = RecentPolls()
         self._targets = {}
         self._surplus = SurplusOk()
         self.settled_at = 0.0
@@ -226,8 +226,10 @@ class CommBridge:
             self._show_target(*self._targets.pop(cmd))
         if gcode in ("T", "M109"):
             self.tool_command_at = self._clock()
-        elif tags and POLL_TAG in tags:
-            if gcode == STATUS_REQUEST:
+        if tags and FILE_TAG not in tags:
+            if POLL_TAG not in tags:
+                self._sent(cmd, tags)
+            elif gcode == STATUS_REQUEST:
                 self._notify("status_sent")
             else:
                 self._polled.add(cmd)

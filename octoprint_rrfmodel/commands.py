@@ -30,18 +30,18 @@ class Command(NamedTuple):
 class PluginCommands:
     """Runs commands; none of them waits for the printer.
 
-    ``machine`` runs those to the machine, ``settings`` and ``profile`` change OctoPrint's.
+    ``machine`` runs those to the machine; the others change what is OctoPrint's, and set it back.
     """
 
-    def __init__(self, machine, settings, profile):
+    def __init__(self, machine, fix_settings, fix_profile, restore):
         def to_machine(name):
             return lambda parameters: machine.run(name, parameters)
 
         self._commands = {
             **{row.name: Command(CONTROL, to_machine(row.name)) for row in COMMANDS},
-            "fix_settings": Command("SETTINGS", lambda parameters: settings.fix()),
-            "restore_settings": Command("SETTINGS", lambda parameters: settings.restore()),
-            "fix_profile": Command("SETTINGS", lambda parameters: profile.fix()),
+            "fix_settings": Command("SETTINGS", lambda parameters: fix_settings()),
+            "restore_settings": Command("SETTINGS", lambda parameters: restore()),
+            "fix_profile": Command("SETTINGS", lambda parameters: fix_profile()),
         }
 
     def names(self):

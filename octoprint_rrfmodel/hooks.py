@@ -1,23 +1,26 @@
 """Which part of the plugin answers which of OctoPrint's hooks."""
 
+from .events import custom_events
 from .permissions import permissions
 
 
 def hooks_of(plugin):
     """Return OctoPrint's hooks and who handles them; early, so that others see clean lines."""
-    bridge, port = plugin.bridge, plugin.simulated_port
+    parts = plugin.parts
+    bridge, port = parts.bridge, parts.simulated_port
     return {
         "octoprint.comm.protocol.gcode.received": (bridge.on_received, 1),
         "octoprint.comm.protocol.gcode.queuing": bridge.on_queuing,
         "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
         "octoprint.comm.protocol.gcode.error": bridge.on_error,
-        "octoprint.comm.protocol.firmware.info": plugin.on_firmware_info,
-        "octoprint.comm.protocol.temperatures.received": plugin.display.on_temperatures,
+        "octoprint.comm.protocol.firmware.info": parts.on_firmware_info,
+        "octoprint.comm.protocol.temperatures.received": parts.display.on_temperatures,
         "octoprint.comm.transport.serial.factory": port.open,
         "octoprint.comm.transport.serial.additional_port_names": port.names,
-        "octoprint.printer.sdcardupload": plugin.uploads.on_upload,
+        "octoprint.printer.sdcardupload": parts.uploads.on_upload,
         "octoprint.server.api.before_request": plugin.before_request,
         "octoprint.server.http.routes": plugin.routes,
-        "octoprint.server.sockjs.emit": plugin.terminal.on_emit,
+        "octoprint.server.sockjs.emit": parts.terminal.on_emit,
         "octoprint.access.permissions": permissions,
+        "octoprint.events.register_custom_events": custom_events,
     }

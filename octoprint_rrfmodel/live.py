@@ -14,17 +14,43 @@ from .poll_slot import TooManyQueries
 WAIT_SECONDS = 10.0
 
 
+class LiveQuestions:
+    """Hands questions to the poller, as long as the printer can be asked.
+
+    ``why_empty()`` says why no model is known.
+    """
+
+    def __init__(self, poller, bridge, follower, why_empty):
+        self._bridge = bridge
+        self._follower = follower
+        self._poller = poller
+        self._why_empty = why_empty
+
+    def ask(self, key, flags):
+        """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
+        return self._poller.query(key, flags)
+
+    def refusal(self):
+        """Return why the printer can't be asked now, ``None`` where it can."""
+        if not self._bridge.is_rrf:
+            return self._why_empty()
+        if self._follower.protocol == "M408":
+            return gettext("This firmware has no M409 and can't be asked for a key.")
+        if self._poller.blocked():
+            return gettext("The printer is busy and can't be asked now. Try again later.")
+        return None
+
+
 class LiveModelHandler(tornado.web.RequestHandler):
     """Asks the printer for a key and returns what it answered; never holds a Flask thread.
 
-    ``query(key, flags)`` gives a future. ``refusal()`` gives the reason why the printer can't be
-    asked now, ``None`` where it can. ``app`` is OctoPrint's Flask application, which knows users.
+    ``questions`` are ``LiveQuestions``, ``app`` is OctoPrint's Flask application, which knows
+    users.
     """
 
-    def initialize(self, query, refusal, app):
+    def initialize(self, questions, app):
         """Take what Tornado hands over from the route."""
-        self._query = query
-        self._refusal = refusal
+        self._questions = questions
         self._app = app
 
     def prepare(self):
@@ -44,12 +70,12 @@ class LiveModelHandler(tornado.web.RequestHandler):
         if reason:
             self._refuse(400, reason)
             return
-        reason = self._refusal()
+        reason = self._questions.refusal()
         if reason:
             self._refuse(409, reason)
             return
         try:
-            future = self._query(key, flags)
+            future = self._questions.ask(key, flags)
         except TooManyQueries:
             self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
             return

@@ -1,20 +1,12 @@
 """Commands to the machine: checked against model and state, then given to OctoPrint's queue."""
 
-import threading
-
 from .command_texts import command_text
 from .printer_profile import profile_of
+from .rate import Rate
 from .rrf.blocking import blocks
 from .rrf.commands import Refusal, Situation, root_of, translate
 from .rrf.gcode import words
-
-COMMAND_TAG = "trigger:rrfmodel.command"
-
-RATE = 20.0
-"""Commands a second."""
-
-BURST = 30
-"""Commands that may come at once."""
+from .tags import COMMAND_TAG
 
 OWN_JOB = {
     "pause": ("pause_print", lambda comm: comm.isPrinting()),
@@ -29,27 +21,6 @@ SLOTS = (
     ("M141 ", "heatedChamber", "chamberHeaters"),
 )
 """Command, what OctoPrint's printer profile calls the heater, and its slots in the model."""
-
-
-class Rate:
-    """Lets so many through in a second; any thread may ask. ``clock()`` is in seconds."""
-
-    def __init__(self, clock):
-        self._clock = clock
-        self._lock = threading.Lock()
-        self._left = float(BURST)
-        self._at = clock()
-
-    def allows(self):
-        """Return whether one more may go through now, and count it if so."""
-        with self._lock:
-            now = self._clock()
-            self._left = min(float(BURST), self._left + (now - self._at) * RATE)
-            self._at = now
-            if self._left < 1:
-                return False
-            self._left -= 1
-            return True
 
 
 class MachineCommands:
@@ -71,7 +42,8 @@ class MachineCommands:
         self._recovery = recovery
         self._end_job = end_job
         self._look = look
-        self._rate = Rate(clock)
+        self.rate = Rate(clock)
+        """Counts what others may ask of the machine."""
 
     def command(self, name, /, **parameters):
         """Run a command, as other plugins do; ``ValueError`` says why it is refused.
@@ -90,7 +62,7 @@ class MachineCommands:
             return outcome.status, command_text(outcome.code, outcome.values)
         if name == "recover":
             return self._recover()
-        if not self._rate.allows():
+        if not self.rate.allows():
             return 409, command_text("too_many", {})
         if name == "refresh":
             self._look(root_of(parameters.get("key") or ""))

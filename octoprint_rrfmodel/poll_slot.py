@@ -1,4 +1,13 @@
-"""What is known of the one poll that may be under way."""
+"""What is known of the one poll that may be under way, and of the questions that wait for it."""
+
+import collections
+import concurrent.futures
+import threading
+
+from .rrf.request import ModelRequest
+
+MOST_QUERIES = 4
+"""Questions to the printer that may wait for the one poll slot."""
 
 
 class TooManyQueries(Exception):
@@ -21,3 +30,58 @@ class Poll:
         """Return whether the next poll may leave."""
         # the M105 behind it leaves when OctoPrint has the ok of the poll itself
         return self.answered and self.status_sent
+
+
+class Queries:
+    """Questions that wait for the slot; any thread may ask while there is a printer."""
+
+    def __init__(self):
+        self._waiting = collections.deque()
+        self._lock = threading.Lock()
+        self._is_open = False
+
+    def __len__(self):
+        """Return how many wait."""
+        return len(self._waiting)
+
+    def open(self):
+        """Take questions: there is a printer."""
+        self._is_open = True
+
+    def close(self):
+        """Take no more, and fail those that wait."""
+        with self._lock:
+            self._is_open = False
+            waiting = list(self._waiting)
+            self._waiting.clear()
+        for _, future in waiting:
+            fail(future, GONE)
+
+    def ask(self, key, flags):
+        """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
+        future = concurrent.futures.Future()
+        with self._lock:
+            if self._is_open and len(self._waiting) >= MOST_QUERIES:
+                raise TooManyQueries
+            if self._is_open:
+                self._waiting.append((ModelRequest(key, flags), future))
+                return future
+        fail(future, GONE)
+        return future
+
+    def next(self):
+        """Return the next request with its future, ``(None, None)`` where nobody waits."""
+        while self._waiting:
+            request, future = self._waiting.popleft()
+            if future.set_running_or_notify_cancel():
+                return request, future
+        return None, None
+
+
+GONE = "the printer was disconnected"
+
+
+def fail(future, reason):
+    """Let a future fail, if it isn't done."""
+    if not future.done():
+        future.set_exception(RuntimeError(reason))

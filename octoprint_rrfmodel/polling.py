@@ -3,12 +3,10 @@
 All of this runs on the worker thread, which calls ``tick`` and hands in what the hooks noted.
 """
 
-import collections
-import concurrent.futures
 import logging
 import re
 
-from .poll_slot import Poll, TooManyQueries
+from .poll_slot import GONE, Poll, Queries, fail
 from .rrf.follower import answers
 from .rrf.line import LIST_REPLY, NO_BUFFERS
 from .rrf.machine import Machine
@@ -21,9 +19,6 @@ ANSWER_SECONDS = 10.0
 
 QUEUED_SECONDS = 30.0
 """Time after which a poll that never left OctoPrint's queue is taken for lost."""
-
-MOST_QUERIES = 4
-"""Questions to the printer that may wait for the one poll slot."""
 
 NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
 """How firmware of various age says that it hasn't got a command."""
@@ -57,7 +52,9 @@ class Poller:
         self._running = False
         self._next_at = 0.0
         self._hurries = False
-        self._queries = collections.deque()
+        self._queries = Queries()
+        self._was_query = False
+        self.query = self._queries.ask
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
         self.asked_at = 0.0
@@ -69,17 +66,19 @@ class Poller:
         """Begin to poll: the printer has just told that it runs RepRapFirmware."""
         self._pace.connected(self._bridge.baudrate())
         self._running = True
+        self._queries.open()
         self._next_at = self._clock()
         self._bridge.expects_refusal = self._follower.protocol is None
 
     def stop(self):
         """Poll no more and know nothing: the connection is gone."""
         self._running = False
+        self._queries.close()
+        if self._poll is not None and self._poll.query is not None:
+            fail(self._poll.query, GONE)
         self._poll = None
         self.applied_at = None
         self._follower.forget()
-        while self._queries:
-            self._fail(self._queries.popleft()[1], "the printer was disconnected")
 
     def tick(self):
         """Send what is due; return the seconds until there may be something to do again."""
@@ -88,7 +87,11 @@ class Poller:
         now = self._clock()
         if self._poll is not None:
             self._watch(now)
-        if self._poll is None and not self.blocked() and (now >= self._next_at or self._queries):
+        # what somebody asks beside a print comes in its turn: the print's lines would wait
+        is_due = now >= self._next_at or (
+            len(self._queries) and not self._bridge.is_streaming_a_print()
+        )
+        if self._poll is None and is_due and not self.blocked():
             self._start_poll(now)
         if self._poll is not None or self.blocked():
             return 0.25
@@ -113,18 +116,15 @@ class Poller:
             return True
         return self._clock() - self.applied_at > STALE_POLLS * self.interval()
 
-    def query(self, key, flags):
-        """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
-        if len(self._queries) >= MOST_QUERIES:
-            raise TooManyQueries
-        future = concurrent.futures.Future()
-        self._queries.append((ModelRequest(key, flags), future))
-        return future
-
-    def hurry(self, key=None):
-        """Ask as soon as may be: something has happened. ``key`` is fetched again, "" for all."""
+    def look(self, key=None):
+        """Ask soon, and for ``key`` again, "" for all; beside a print everything in its turn."""
         if key is not None:
             self._follower.refetch(key)
+        if not self._bridge.is_streaming_a_print():
+            self.hurry()
+
+    def hurry(self):
+        """Ask as soon as may be: something has happened."""
         self._hurries = self._poll is not None
         self._next_at = self._clock()
 
@@ -200,12 +200,10 @@ class Poller:
     ##~~ the poll slot
 
     def _start_poll(self, now):
-        query = request = None
+        # turn by turn, so that the model stays fresh whoever asks
+        request, query = (None, None) if self._was_query else self._queries.next()
+        self._was_query = query is not None
         is_card = False
-        while self._queries and request is None:
-            request, query = self._queries.popleft()
-            if not query.set_running_or_notify_cancel():
-                request = query = None
         if request is None and self._is_cards_turn():
             request = self._card.next_request()
             is_card = request is not None
@@ -242,7 +240,7 @@ class Poller:
         elif poll.query is None:
             self._follower.timed_out()
         else:
-            self._fail(poll.query, "the printer did not answer in time")
+            fail(poll.query, "the printer did not answer in time")
         self._end(failed=True)
 
     def _finish_if_over(self):
@@ -283,18 +281,13 @@ class Poller:
         try:
             reply = decode(text)
         except MalformedReply as error:
-            self._fail(poll.query, str(error))
+            fail(poll.query, str(error))
         else:
             if isinstance(reply, ModelReply) and not answers(reply, poll.request):
                 return
             if isinstance(reply, ModelReply):
                 poll.query.set_result(reply)
             else:
-                self._fail(poll.query, "the printer had no room for this answer")
+                fail(poll.query, "the printer had no room for this answer")
         poll.answered = True
         self._finish_if_over()
-
-    @staticmethod
-    def _fail(future, reason):
-        if not future.done():
-            future.set_exception(RuntimeError(reason))

@@ -75,5 +75,12 @@ def profile_of(comm, profiles):
     return getattr(comm, "_printer_profile", None) or profiles.get_current_or_default()
 
 
-def _count(profile):
-    return profile["extruder"]["count"]
+def _is_as_raised(profile, old, new):
+    """Return whether the profile still has the number that was set, and no use for it."""
+    if _count(profile) != new:
+        return False
+    return all(tuple(offset) == NO_OFFSET for offset in profile["extruder"]["offsets"][old:])
+
+
+def _count(profile, otherwise=0):
+    return profile["extruder"]["count"] if profile else otherwise

@@ -25,6 +25,8 @@ CAPABILITY = "PROMPT_SUPPORT"
 
 NO_BOX = {}
 
+MOST_CHOICES = 1000
+
 
 class BoxPrompt:
     """Shows the open box, once, and closes the dialog when the box is gone.
@@ -73,7 +75,8 @@ class BoxPrompt:
         box, shown = self._box(), self._shown
         index = words(cmd).get("S")
         line = None
-        if index is not None and shown and box.get("seq") == shown["seq"]:
+        is_one = index is not None and 0 <= index < MOST_CHOICES
+        if is_one and shown and box.get("seq") == shown["seq"]:
             line = answer(shown, int(index), Machine(self._model()).version)
         if line is None:
             self._logger.info("Not sending %r: it answers no message box", cmd)

@@ -96,8 +96,14 @@ class Protection:
             clock,
         )
         """Also called by other plugins."""
-        self.commands = PluginCommands(self.machine, self._settings, profile)
-        self.refusals = [self.guard.refuse, self.commands.refuse]
+        self.commands = PluginCommands(
+            self.machine, self._settings.fix, self._profile.fix, self.restore
+        )
+        self.refusals = [
+            self.guard.refuse,
+            RequestChecks(lambda: bridge().connection).refuse,
+            self.commands.refuse,
+        ]
         """What looks at requests to OctoPrint's API."""
         self.handlers = {
             "halted": self._recovery.halted,

@@ -15,17 +15,46 @@ RECEIVED = re.compile(r"(?:Recv: |<<< ?)(?P<text>.*)$")
 
 OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins|dir)":')
 
+MOST_POLLS = 1000
+
 PATIENCE = 20
 """Lines after which a poll whose reply was not seen is forgotten."""
 
 
-class _Follow:
+class RecentPolls:
+    """The polls that were sent, each text once; the oldest go, since anything may be asked."""
+
+    def __init__(self):
+        self._sent = {}
+
+    def __contains__(self, command):
+        """Return whether the command was sent."""
+        return command in self._sent
+
+    def __len__(self):
+        """Return how many different ones there are."""
+        return len(self._sent)
+
+    def add(self, command):
+        """Note a poll; one thread does."""
+        self._sent.pop(command, None)
+        self._sent[command] = None
+        if len(self._sent) > MOST_POLLS:
+            del self._sent[next(iter(self._sent))]
+
+
+class PollTrace:
     """How far one client has come through a poll: its reply, its ok, the M105 and its reply."""
 
     def __init__(self, is_poll):
         self._is_poll = is_poll
         self.expects = "poll"
         self.seen = 0
+
+    @property
+    def is_open(self):
+        """Whether something that belongs to a poll is still to come."""
+        return self.expects != "poll"
 
     def hides(self, line):
         """Return whether a line belongs to a poll."""
@@ -81,7 +110,7 @@ class TerminalFilter:
             logs = payload.get("logs") if payload else None
             if logs:
                 if message == "history" or socket not in self._clients:
-                    self._clients[socket] = _Follow(self._is_poll)
+                    self._clients[socket] = PollTrace(self._is_poll)
                 hides = self._clients[socket].hides
                 payload["logs"] = [line for line in logs if not hides(line)]
         return True

@@ -2,10 +2,10 @@
 
 import logging
 
-from .comm import FILE_TAG
 from .notices import waiting_text
 from .rrf.operations import NOTHING, Lines
 from .rrf.unsendable import text_of_box, unsendable
+from .tags import FILE_TAG
 
 PAUSE = Lines(("@pause",))
 """OctoPrint's own command that pauses the print where it stands; the printer doesn't see it."""

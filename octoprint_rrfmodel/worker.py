@@ -4,9 +4,16 @@ Which thread runs what:
 
 * OctoPrint's receiving thread (``comm._monitor``), its sending thread and whoever queues a
   command: the hooks of ``comm.CommBridge``, which put a note into this worker's queue.
-* this worker: ``polling.Poller``, ``rrf.follower.Follower`` with the store, ``push.ModelPush``.
-* Flask's threads: ``api``, which read ``store.model`` (a snapshot that never changes) and numbers.
-* Tornado's loop: ``live``, which waits for a future that this worker resolves.
+* this worker: ``polling.Poller``, ``rrf.follower.Follower`` with the store, ``push.ModelPush``,
+  ``events``, and what ``printer_objects`` keeps from one reply to the next.
+* Flask's threads: ``api``, ``moonraker``, ``commands``, which read ``store.model`` (a snapshot that
+  never changes) and numbers, and put commands into OctoPrint's queue.
+* Tornado's loop: ``live``, which waits for a future that this worker resolves, ``websocket`` and
+  ``subscribers``; others call them by ``add_callback`` alone, and clients' G-code goes back to this
+  worker to be sent.
+* ``rrfmodel.audience``, another ``Worker``: callbacks and hook handlers of other plugins.
+* ``rrfmodel.neighbours``, another: MQTT, PSUControl and the like.
+* ``rrfmodel.recovery``: one restart of the board, waiting for it to come back.
 """
 
 import logging

@@ -9,7 +9,7 @@ from tests.rrf.test_commands_forbidden import TABLE as FORBIDDEN
 pytest.importorskip("flask_babel")
 
 from octoprint_rrfmodel import command_texts  # noqa: E402
-from octoprint_rrfmodel.machine_commands import BURST, RATE, Rate  # noqa: E402
+from octoprint_rrfmodel.rate import BURST, RATE, Rate  # noqa: E402
 from octoprint_rrfmodel.rrf.commands import Situation  # noqa: E402
 from octoprint_rrfmodel.rrf.machine import Machine  # noqa: E402
 

@@ -48,6 +48,8 @@ class Follower:
         """``M409`` or ``M408`` once one of them was answered."""
         self.counters = {"replies": 0, "malformed": 0, "out_of_buffers": 0, "timeouts": 0}
         self.resets = 0
+        self.is_mute = False
+        """Whether the board answered neither to ``M409`` nor to ``M408``; both are tried again."""
         self._start()
 
     def _start(self) -> None:
@@ -96,6 +98,7 @@ class Follower:
             self.counters["replies"] += 1
             self.protocol = "M409" if isinstance(reply, ModelReply) else "M408"
             self._unanswered = 0
+            self.is_mute = False
             changes: dict[str, Any] = {}
             for update in self._plan.take(reply):  # type: ignore[arg-type]
                 changes.update(self._apply(update))
@@ -151,6 +154,7 @@ class Follower:
         """Try ``M409`` once more where ``M408`` brought nothing either."""
         if isinstance(self._plan, StatusPlan) and self._plan.exhausted:
             self.forget()
+            self.is_mute = True
 
     def refetch(self, key: str = "") -> None:
         """Ask for a key again, or for all of them."""
@@ -160,6 +164,7 @@ class Follower:
         """Begin anew: another connection, perhaps another board."""
         self.store.forget()
         self.protocol = None
+        self.is_mute = False
         self._start()
 
     def _decode(self, text: str, request: Request) -> ModelReply | StatusReply | NoBuffers:

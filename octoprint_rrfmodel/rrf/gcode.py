@@ -65,6 +65,25 @@ def extrude_line(amounts: Sequence[float], speed: float | None) -> str:
     return f"M120 M83 G1 E{numbers(amounts)}{feed} M121"
 
 
+def texts(line: str) -> dict[str, str]:
+    """Return the texts of a line that stand behind a letter, by upper-case letter.
+
+    >>> texts('M291 P"Is it there?" R "Look" S3')
+    {'P': 'Is it there?', 'R': 'Look'}
+    """
+    return {
+        found["letter"].upper(): _unquoted(found["text"])
+        for found in _TEXT.finditer(line)
+        if found["letter"]
+    }
+
+
+def _unquoted(text: str) -> str:
+    """Return what a text in quotes means; the reverse of :func:`quoted`."""
+    plain = text.replace('""', '"')
+    return re.sub("'(.)", lambda found: found[1].lower(), plain, flags=re.DOTALL)
+
+
 def axis_word(letter: str, value: str = "") -> str:
     """Return an axis letter with a value; lower-case axes are written ``'a``."""
     return f"'{letter}{value}" if letter.islower() else f"{letter}{value}"

@@ -117,22 +117,13 @@ def _tool_target(given: dict[str, float | None], machine: Machine, memory: Memor
         return Lines((f"M568 P{name} S{targets} A{state}",), heater, target)
     current = machine.current_tool
     if not target:
-        return Lines((tool_off(tool, machine.version),), heater)
+        return Lines((tool_off(tool, machine),), heater)
     lines = [f"M104 T{name} S{number(target)}"]
     standby = tool.get("standby")
     if current is not None and current["number"] == name and standby:
         # M104 has set the standby temperature too
         lines.append(f"G10 P{name} R{numbers(standby)}")
     return Lines(tuple(lines), heater, target)
-
-
-def _off_except_those_of(current: Mapping[str, Any] | None, tool: Mapping[str, Any]) -> str:
-    """Return temperatures that switch a tool's heaters off, 0 for one that the current tool uses.
-
-    G10 would switch that off too (2.05 Tool.cpp, SetToolHeaterStandbyTemperature); M568 doesn't.
-    """
-    others = () if current is None or current is tool else current.get("heaters") or ()
-    return ":".join("0" if index in others else OFF for index in tool.get("heaters") or (None,))
 
 
 def _slot_target(code: str, heater: str) -> Translation:
@@ -158,13 +149,23 @@ def slot_off(code: str, slot: int, machine: Machine) -> str:
     return f"M120 {code} P{slot} S{OFF} M121"
 
 
-def tool_off(tool: Mapping[str, Any], version: tuple[int, int, int]) -> str:
+def tool_off(tool: Mapping[str, Any], machine: Machine) -> str:
     """Return the line that switches a tool's heaters off."""
     name = tool["number"]
-    if version >= M568_SETS_TOOLS:
+    if machine.version >= M568_SETS_TOOLS:
         return f"M568 P{name} A0"
-    off = ":".join([OFF] * heater_count(tool))
+    off = _off_except_those_of(machine.current_tool, tool)
     return f"G10 P{name} S{off} R{off}"
+
+
+def _off_except_those_of(current: Mapping[str, Any] | None, tool: Mapping[str, Any]) -> str:
+    """Return temperatures that switch a tool's heaters off, 0 for one that the current tool uses.
+
+    G10 would switch that off too (2.05 Tool.cpp, SetToolHeaterStandbyTemperature); M568 doesn't.
+    """
+    is_other = current is not None and current.get("number") != tool.get("number")
+    others = (current.get("heaters") or ()) if current is not None and is_other else ()
+    return ":".join("0" if index in others else OFF for index in tool.get("heaters") or (None,))
 
 
 def heater_count(tool: Mapping[str, Any]) -> int:

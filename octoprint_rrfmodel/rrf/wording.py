@@ -47,9 +47,13 @@ def _always(text: str) -> Wording:
     return lambda found, situation: text
 
 
+UNLISTED = "// a file that is not in the list was opened"
+"""In place of a reply about such a file: a comment to the host, without the reply's own words."""
+
+
 def _opened(found: re.Match[str], situation: Situation) -> str | None:
     if situation.opened is None:
-        return None if situation.names_file else "// File opened"
+        return None if situation.names_file else UNLISTED
     alias, size = situation.opened
     return f"File opened: {alias} Size: {size}"
 
@@ -98,7 +102,8 @@ ROWS = (
         re.compile(r"File opened\s*$"),
         _opened,
         "M23 and M32 tell neither name nor size (3.5 GCodes2.cpp:1041); a host that shows a job"
-        " has to know both. OctoPrint 2.0 ends the connection over a file that it doesn't list.",
+        " has to know both. What its list doesn't have it can't take for its job: OctoPrint 2.0's"
+        " connection would break at it.",
     ),
     Row(
         "not_printing",

@@ -49,6 +49,7 @@ def measure() -> None:
         show_target=lambda *target: None,
         instead=lambda *command: None,
         guards=lambda error: False,
+        sent=lambda command, tags: None,
         clock=lambda: 0.0,
     )
     bridge.on_firmware_info(comm, "RepRapFirmware for Duet 2 WiFi/Ethernet", {})

@@ -30,7 +30,7 @@ CASES = {
     "opened": [
         ("File opened", OPENED, "File opened: two_uidj.gco Size: 667"),
         ("File opened", Situation(names_file=True), None),
-        ("File opened", Situation(), "// File opened"),
+        ("File opened", Situation(), "// a file that is not in the list was opened"),
         ("File opened: a.gco Size: 5", OPENED, None),
     ],
     "not_printing": [

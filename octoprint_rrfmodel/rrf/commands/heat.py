@@ -62,7 +62,7 @@ def tool_state(request: Request) -> Sequence[str]:
     if tool.get("heaters") == []:
         raise bad("no_heater", tool=str(number_of_tool))
     if state == "off":
-        return [tool_off(tool, machine.version)]
+        return [tool_off(tool, machine)]
     if machine.version < M568_SETS_TOOLS:
         raise forbidden("tool_state_firmware", version="3.3")
     return [f"M568 P{number_of_tool} A{STATES.index(state)}"]
