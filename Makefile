@@ -45,7 +45,7 @@ help:
 	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
-.venv/octoprint-%/.installed: requirements/octoprint-%.txt requirements/dev.txt
+.venv/octoprint-%/.installed: requirements/octoprint-%.txt requirements/dev.txt requirements/clients.txt
 	@echo "installing OctoPrint $* and the test tools into $(@D)"
 	@rm -rf $(@D)
 	@$(PYTHON) -m venv $(@D)

@@ -1,12 +1,13 @@
 """Run every measurement and print each beside what it is compared with."""
 
-from tests.bench import hooks, live_reply
+from tests.bench import hooks, live_reply, server
 
 
 def main():
     """Print all measurements."""
     live_reply.measure()
     hooks.measure()
+    server.measure()
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """A connected board with OctoPrint's printer API in front of it, for tests of operations."""
 
 import itertools
+import re
 
 import pytest
 
@@ -26,7 +27,7 @@ SETUPS = {
 LIVE = (ModelRequest("", LIVE_FLAGS).line, "M408")
 """How polls begin that ask for what changes all the time."""
 
-BESIDE = ("M105", "M409", "M408", "M20", "M118")
+BESIDE = re.compile(r'M(105|409|408|20)\b|M118 P1 S"\d+"$')
 """What comes from timers, from the plugin and from the tests beside an operation."""
 
 MARKS = itertools.count()
@@ -96,21 +97,20 @@ class Machine:
         response = self.server.post(f"/api/printer/{path}", json=request)
         assert response.status_code == 204, response.text
         self.arrive()
-        wire = self.sent(before)
+        wire = self.sent_since(before)
         self._is_at_rest = self._is_at_rest and not wire
         return wire
 
-    def sent(self, since):
+    def sent_since(self, since):
         """Return the G-code that has come in since there were so many lines."""
         lines = helpers.commands(self.pty)[since:]
-        return [line for line in lines if line and line.split()[0] not in BESIDE]
+        return [line for line in lines if line and not BESIDE.match(line)]
 
     def execute(self, gcode):
         """Run G-code at the machine, as its own panel does, and let the model know."""
         self._is_at_rest = False
         self.board.execute(gcode)
         self.settle()
-        return self.sent_since(before)
 
     def command(self, name, lines, /, **parameters):
         """Send a command to the plugin; return once these lines came, and nothing else."""
@@ -129,25 +129,6 @@ class Machine:
         assert response.status_code == wanted, response.text
         return response
 
-    def sent_since(self, before):
-        """Return the G-code on the wire since then, without the line number and status requests."""
-        lines = [helpers.NUMBERED.match(line)["command"] for line in self.board.received()[before:]]
-        return [
-            line
-            for line in lines
-            if line and line.split()[0] not in ("M105", "M409", "M408", "M20")
-        ]
-
-    def told(self):
-        """Return the plugin's model."""
-        return helpers.value(self.server, "")
-
-    def settle(self):
-        """Return once the board has done all and the model says what has become of it."""
-        self.wait_idle()
-        # a live reply that was asked for before may be on its way; the keys that moved follow
-        helpers.wait_polls(self.server, 3)
-
     def wait_idle(self):
         """Return once the board has done all that has come in."""
         self.server.wait_for(
@@ -155,6 +136,62 @@ class Machine:
             60,
             "the board to have done all",
         )
+
+    def told(self):
+        """Return the plugin's model."""
+        return helpers.value(self.server, "")
+
+    def settle(self):
+        """Return once the board has done all and the model says what has become of it."""
+        self.arrive()
+        asked = len(self.board.received())
+        # with two live requests in a row no key that has changed waits to be fetched
+        self.server.wait_for(lambda: self.look() or self._asks_live(asked), 20, "nothing new")
+
+    def _asks_live(self, since):
+        polls = [line for line in helpers.commands(self.pty)[since:] if helpers.is_poll(line)]
+        return len(polls) > 1 and all(poll.startswith(LIVE) for poll in polls[-2:])
+
+    def arrive(self):
+        """Return once all that OctoPrint has queued until now was sent and is done."""
+        mark = f'M118 P1 S"{next(MARKS)}"'
+        self.server.commands(mark)
+        self.server.wait_for(lambda: mark in helpers.commands(self.pty)[-20:], 60, "the last line")
+        self.wait_idle()
+
+    def look(self):
+        """Let the plugin ask at once, as it does when the board has something to say."""
+        before = helpers.status(self.server)["counters"]["replies"]
+        self.board.message("- Event notification -\n")
+        self.server.wait_for(
+            lambda: helpers.status(self.server)["counters"]["replies"] > before, 10, "a reply"
+        )
+
+    def rest(self):
+        """Make the board cold, deselect its tool, forget where its axes are and what was shown."""
+        if self._is_at_rest:
+            return
+        numbers = [tool["number"] for tool in self.board.model["tools"] if tool]
+        with self.board.lock:
+            self.board.execute("T-1 P0")
+            for number in numbers:
+                self.board.execute(f"G10 P{number} S0 R0")
+            for heater in self.board.model["heat"]["heaters"]:
+                heater.update(state="off", active=0, standby=0, current=21.3)
+            self.board.bump("heat", "tools")
+            for extruder in self.board.model["move"]["extruders"]:
+                extruder["factor"] = 1.0
+            self.board.bump("move")
+            self.board.execute("M84\nM220 S100")
+        self.settle()
+        self._is_at_rest = True
+        self._history_begins = 0
+        self._history_begins = len(self.history("tool"))
+
+    @property
+    def is_old(self):
+        """Whether M568 doesn't set temperatures."""
+        return not self.board.firmware.has_m568
 
     def home(self):
         assert self.ask("printhead", command="home", axes=["x", "y", "z"]) == ["G28 X Y Z"]

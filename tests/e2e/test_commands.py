@@ -52,6 +52,10 @@ def bed(model):
     return model["heat"]["heaters"][model["heat"]["bedHeaters"][0]]
 
 
+def positions(model):
+    return [axis["machinePosition"] for axis in model["move"]["axes"]]
+
+
 def tool(model):
     return model["tools"][0]
 
@@ -115,14 +119,14 @@ CASES = [
         {"axes": {"X": 30, "Y": 20}, "speed": 6000, "absolute": True},
         ["M120 G21 G90 G1 X30 Y20 F6000 M121"],
         None,
-        lambda model: [axis["machinePosition"] for axis in model["move"]["axes"][:2]] == [30, 20],
+        lambda model: positions(model)[:2] == pytest.approx([30, 20]),
     ),
     (
         "jog",
         {"axes": {"X": -10}},
         ["M120 G21 G91 G1 X-10 M121"],
         None,
-        lambda model: model["move"]["axes"][0]["machinePosition"] == 20,
+        lambda model: positions(model)[0] == pytest.approx(20),
     ),
     (
         "babystep",

@@ -127,6 +127,7 @@ def test_reset_can_only_be_cancelled(server, printing):
         # perhaps an ok is lost with the reset, and OctoPrint finds out after its time limit
         server.wait_state("Paus", 12)
         server.wait_for(lambda: "reset" in codes(server), 5, "the warning")
+        server.wait_for(lambda: paused(push), 5, "the notice")
         assert len(paused(push)) == 1
     server.wait_state("Paused", 60)
     response = resume(server)

@@ -5,8 +5,7 @@ import time
 
 import pytest
 
-from tests.support.basedir import ADMIN, OPERATOR, READER
-from tests.support.push import PushListener
+from tests.support.basedir import ADMIN
 
 from . import helpers
 
@@ -180,47 +179,3 @@ def test_four_may_wait_and_the_fifth_may_not(ready, board):
     # one may be under way besides the four
     assert statuses.count(504) in (4, 5)
     helpers.wait_polls(ready, 2, 90)
-
-
-# permissions
-
-PATHS = (STATUS, SIMPLE, MODEL, LIVE + "?key=state.upTime")
-
-
-@pytest.mark.parametrize("path", PATHS)
-@pytest.mark.parametrize("user", [ADMIN, OPERATOR, READER], ids=lambda user: user.name)
-@pytest.mark.parametrize("way", ["client", "session"])
-def test_who_has_the_permission_is_answered(ready, user, path, way):
-    with getattr(ready, way)(user) as client:
-        assert client.get(path).status_code == 200
-
-
-@pytest.mark.parametrize("path", PATHS)
-def test_nobody_else_is_answered(ready, path):
-    with ready.client() as client:
-        assert_error(client.get(path), 403)
-
-
-@pytest.fixture
-def open_to_guests(ready):
-    group = ready.get("/api/access/groups/guests").json()
-    permissions = [*group["permissions"], "PLUGIN_RRFMODEL_READ"]
-    response = ready.put("/api/access/groups/guests", json={**group, "permissions": permissions})
-    assert response.status_code == 200, response.text
-    yield ready
-    ready.put("/api/access/groups/guests", json=group)
-
-
-@pytest.mark.parametrize("path", PATHS)
-def test_guests_are_answered_where_they_have_it(open_to_guests, path):
-    with open_to_guests.client() as client:
-        assert client.get(path).status_code == 200
-
-
-def test_push_reaches_only_who_has_the_permission(ready):
-    with PushListener(ready, READER) as reader, PushListener(ready, None) as nobody:
-        message = reader.wait_for_plugin(lambda data: data["type"] == "model")
-        helpers.wait_polls(ready, 3)
-        assert set(message["changed"]) & {"state", "heat", "seqs", "move"}
-        assert set(message["status"]) == set(STATUS_TYPES)
-        assert nobody.of_plugin() == []

@@ -5,7 +5,6 @@ import threading
 import pytest
 
 from octoprint_rrfmodel.rrf.operations import ROWS
-
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 

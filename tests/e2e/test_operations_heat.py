@@ -254,10 +254,12 @@ def test_offsets_are_added_once_and_only_to_a_file(machine, offsets):
     machine.server.upload("heats.gcode", "\n".join(lines) + "\n")
     before = len(machine.board.received())
     machine.server.select_and_print("heats.gcode")
-    machine.server.wait_for(lambda: "M140 S0" in machine.sent(before), 20, "the end of the file")
+    machine.server.wait_for(
+        lambda: "M140 S0" in machine.sent_since(before), 20, "the end of the file"
+    )
     machine.server.wait_state("Operational", 20)
     wanted = {"M140": [57, 0], "M141": [42], "M104": [205, 0]}
-    sent = [line for line in machine.sent(before) if line.split()[0] in wanted]
+    sent = [line for line in machine.sent_since(before) if line.split()[0] in wanted]
     assert {
         code: [float(line.rpartition("S")[2]) for line in sent if line.startswith(code)]
         for code in wanted

@@ -28,15 +28,19 @@ class Client(requests.Session):
         kwargs.setdefault("timeout", TIMEOUT_SECONDS)
         return super().request(method, self.base_url + url, **kwargs)
 
+    def take_token(self) -> None:
+        """Send the CSRF token from now on, as a page does, logged in or not."""
+        # the page hands out the token that the request for the login already needs
+        self.get("/login/").raise_for_status()
+        # the cookie's name ends in the port, so that servers of one host don't share it
+        self.headers["X-CSRF-Token"] = self.cookies[f"csrf_token_P{urlsplit(self.base_url).port}"]
+
     def log_in(self, user: User) -> dict[str, Any]:
         """Make this a browser-like session, with cookies and the CSRF token as a header.
 
         Returns what OctoPrint tells about the user, ``session`` among it.
         """
-        # the page hands out the token that the request for the login already needs
-        self.get("/login/").raise_for_status()
-        # the cookie's name ends in the port, so that servers of one host don't share it
-        self.headers["X-CSRF-Token"] = self.cookies[f"csrf_token_P{urlsplit(self.base_url).port}"]
+        self.take_token()
         response = self.post("/api/login", json={"user": user.name, "pass": user.password})
         response.raise_for_status()
         return response.json()
