@@ -1,17 +1,17 @@
 """Sentences for refusals, and how many commands go through in a second."""
 
+from types import SimpleNamespace
+
 import pytest
 
+from octoprint_rrfmodel import command_texts
+from octoprint_rrfmodel.machine_commands import MachineCommands
+from octoprint_rrfmodel.rate import BURST, RATE, Rate
+from octoprint_rrfmodel.rrf.commands import Situation
+from octoprint_rrfmodel.rrf.machine import Machine
 from tests.rrf.commanded import FREE, go, on
 from tests.rrf.test_commands_bad import TABLE as BAD
 from tests.rrf.test_commands_forbidden import TABLE as FORBIDDEN
-
-pytest.importorskip("flask_babel")
-
-from octoprint_rrfmodel import command_texts  # noqa: E402
-from octoprint_rrfmodel.rate import BURST, RATE, Rate  # noqa: E402
-from octoprint_rrfmodel.rrf.commands import Situation  # noqa: E402
-from octoprint_rrfmodel.rrf.machine import Machine  # noqa: E402
 
 HALTED = on(**{"state.status": "halted"})
 PAUSED = on(**{"state.status": "paused"})
@@ -64,3 +64,79 @@ def test_commands_a_second_are_bounded():
     assert [rate.allows() for _ in range(int(RATE / 2) + 1)] == [True] * int(RATE / 2) + [False]
     now += 3600
     assert sum(rate.allows() for _ in range(10 * BURST)) == BURST
+
+
+class Host:
+    """OctoPrint and the connection as far as commands see them."""
+
+    def __init__(self, machine):
+        self.sent = []
+        self.looked = []
+        self.machine = machine
+        self.connection = None
+        self.is_rrf = True
+        self.commands_to = MachineCommands(
+            lambda: self,
+            lambda: None,
+            lambda: self,
+            lambda: self.machine,
+            SimpleNamespace(is_waiting=False),
+            SimpleNamespace(refusal=lambda: "Not now."),
+            lambda: ("M25", "M400 M0"),
+            self.looked.append,
+            lambda: 0.0,
+        )
+
+    def is_operational(self):
+        return True
+
+    def has_a_print(self):
+        return False
+
+    def is_streaming_a_print(self):
+        return False
+
+    def commands(self, lines, tags):
+        self.sent.append((lines, tags))
+
+
+def test_other_plugins_call_a_function():
+    host = Host(on())
+    command = host.commands_to.command
+    assert command("filament", action="load", name="PLA") is None
+    assert command("fan", fan=0, speed=1) is None
+    assert host.sent == [
+        (['M701 S"PLA"', "M703"], {"trigger:rrfmodel.command"}),
+        (["M106 P0 S1"], {"trigger:rrfmodel.command"}),
+    ]
+    # asked at once what has come of it, but for what blocks
+    assert host.looked == [None]
+    command("refresh", key="heat.heaters[0]")
+    command("refresh")
+    assert host.looked == [None, "heat", ""]
+
+
+@pytest.mark.parametrize(
+    "name, parameters, sentence",
+    [
+        ("fan", {"fan": 9, "speed": 1}, "The machine has no fan 9. Its fans are: 0, 1."),
+        ("explode", {}, None),
+        ("message_box", {"action": "ok"}, "No message waits for an answer."),
+        ("recover", {}, "Not now."),
+    ],
+)
+def test_a_function_says_why_it_refuses(name, parameters, sentence):
+    host = Host(on())
+    with pytest.raises(ValueError) as refused:
+        host.commands_to.command(name, **parameters)
+    assert sentence in (None, str(refused.value))
+    assert host.sent == []
+
+
+def test_a_function_is_bounded_too():
+    host = Host(on())
+    for _ in range(BURST):
+        host.commands_to.command("fan", fan=0, speed=1)
+    with pytest.raises(ValueError, match="Too many"):
+        host.commands_to.command("fan", fan=0, speed=1)
+    assert len(host.sent) == BURST
