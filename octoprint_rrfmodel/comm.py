@@ -33,7 +33,7 @@ class CommBridge:
     """Knows OctoPrint's connection as far as polling needs to, and takes the replies out.
 
     ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
-    ``poll_sent``, ``status_sent``, ``identified``, ``halted`` and ``heard`` (what a line tells);
+    ``poll_sent`` (when), ``status_sent``, ``identified``, ``halted`` and ``heard`` (what);
     it must only take note and return. ``instead(cmd, gcode, tags)`` gives what to queue for
     a command that had better not be sent, ``None`` for others. ``guards(error)`` says whether a
     serious error only pauses the print.
@@ -233,7 +233,7 @@ class CommBridge:
                 self._notify("status_sent")
             else:
                 self._polled.add(cmd)
-                self._notify("poll_sent")
+                self._notify("poll_sent", self._clock())
         return None
 
     ##~~ octoprint.comm.protocol.gcode.error

@@ -59,7 +59,7 @@ class Parts:
             {
                 "identified": self._on_identified,
                 "disconnected": self._on_disconnected,
-                "poll_sent": lambda: self._poller.poll_sent(),
+                "poll_sent": lambda at: self._poller.poll_sent(at),
                 "status_sent": lambda: self._poller.status_sent(),
                 "reply": lambda text: self._poller.reply(text),
                 "refused": lambda line: self._poller.refused(line),

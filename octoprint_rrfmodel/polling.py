@@ -130,10 +130,10 @@ class Poller:
 
     ##~~ what the hooks noted
 
-    def poll_sent(self):
-        """Note that the poll went out."""
+    def poll_sent(self, at):
+        """Note that the poll went out, and when: this note may come late."""
         if self._poll is not None and self._poll.sent_at is None:
-            self._poll.sent_at = self._clock()
+            self._poll.sent_at = at
             self.polls += 1
 
     def status_sent(self):
