@@ -27,7 +27,7 @@ SETUPS = {
 LIVE = (ModelRequest("", LIVE_FLAGS).line, "M408")
 """How polls begin that ask for what changes all the time."""
 
-BESIDE = re.compile(r'M(105|409|408|20)\b|M118 P1 S"\d+"$')
+BESIDE = re.compile(r'M(105|409|408|20|27)\b|M118 P1 S"\d+"$')
 """What comes from timers, from the plugin and from the tests beside an operation."""
 
 MARKS = itertools.count()

@@ -79,7 +79,8 @@ def test_print_from_the_card(server, connect):
         assert nobody.of_plugin(MESSAGE) == []
     layers = [int(found["currentLayer"]) for found in payloads if found["currentLayer"] != "-"]
     assert layers == sorted(layers)
-    assert {found["totalLayer"] for found in payloads} == {str(LAYERS)}
+    # what the file tells comes a moment after the first layer
+    assert {found["totalLayer"] for found in payloads} - {"-"} == {str(LAYERS)}
     assert {found["currentFilename"] for found in payloads} == {"tower.gcode"}
     assert {"40%"} <= {found["fanspeed"] for found in payloads}
     assert {"1200"} <= {found["feedrate"] for found in payloads}
