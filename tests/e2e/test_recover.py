@@ -112,7 +112,7 @@ def test_board_that_does_not_come_back(server, board_factory, tmp_path):
         assert recover(server).status_code == 204
         server.wait_disconnected()
         board.stop()
-        push.wait_for_plugin(lambda found: found.get("code") == "recover_failed", 110)
+        push.wait_for_plugin(lambda found: found.get("code") == "recover_failed", 160)
 
 
 def test_refused(server, board_factory):
