@@ -40,7 +40,7 @@ class Interfaces(LoginStatusListener):
         self._is_announced = False
         self._hub = None
         self._jobs = HostJobs(self._announce)
-        self.store = GcodeStore(bridge.has_polled, self._responded)
+        self.store = GcodeStore(lambda: bridge.is_rrf, bridge.has_polled, self._responded)
         self._scripts = GcodeScripts(self._is_connected, partial(notify, "send"), rate)
         self.objects = PrinterObjects(
             follower,

@@ -16,7 +16,10 @@ class Store:
 
     def __init__(self, form):
         self.responded = []
-        self.store = GcodeStore(lambda command: command == POLL, self.responded.append)
+        self.is_rrf = True
+        self.store = GcodeStore(
+            lambda: self.is_rrf, lambda command: command == POLL, self.responded.append
+        )
         self.out, self.into = FORMS[form]
 
     def log(self, *lines):
@@ -94,6 +97,12 @@ def test_latest(line, count, kept):
         line.log(f"<line {number}")
     found = [entry["message"] for entry in line.store.latest(count)]
     assert found == [f"line {number}" for number in range(5)][5 - kept :]
+
+
+def test_nothing_is_kept_of_another_firmware(line):
+    line.is_rrf = False
+    line.log("<FIRMWARE_NAME:Marlin")
+    assert line.kept() == line.responded == []
 
 
 def test_the_oldest_go(line):
