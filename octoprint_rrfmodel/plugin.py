@@ -5,6 +5,7 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 from octoprint.events import eventManager
 
+from .assets import ASSETS
 from .endpoints import Endpoints
 from .host import Host
 from .live import LiveModelHandler
@@ -81,6 +82,11 @@ class RrfModelPlugin(
     def get_settings_version(self):
         return VERSION
 
+    ##~~ AssetPlugin
+
+    def get_assets(self):
+        return ASSETS
+
     ##~~ TemplatePlugin
 
     def get_template_configs(self):
@@ -91,6 +97,13 @@ class RrfModelPlugin(
                 "icon": "microchip",
                 "custom_bindings": True,
             },
+            {
+                "type": "tab",
+                "name": gettext("RepRapFirmware"),
+                "custom_bindings": True,
+                "data_bind": "visible: mayRead",
+            },
+            {"type": "generic", "template": "rrfmodel.jinja2", "custom_bindings": True},
             {"type": "settings", "name": gettext("RepRapFirmware"), "custom_bindings": False},
         ]
 

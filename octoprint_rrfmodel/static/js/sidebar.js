@@ -6,89 +6,6 @@ $(function () {
      * @typedef {{letter: string, position: string, homed: boolean, title: string}} AxisMark
      */
 
-    /** Words in the page's language; OctoPrint defines gettext after this file has run. */
-    const makeWords = () => ({
-        /** The machine's state, by state.status; a new one is shown as it came. */
-        status: {
-            starting: gettext("Starting"),
-            updating: gettext("Updating the firmware"),
-            halted: gettext("Halted"),
-            off: gettext("No motor supply"),
-            pausing: gettext("Pausing"),
-            resuming: gettext("Resuming"),
-            paused: gettext("Paused"),
-            cancelling: gettext("Cancelling"),
-            simulating: gettext("Simulating"),
-            processing: gettext("Printing from its card"),
-            changingTool: gettext("Changing the tool"),
-            busy: gettext("Busy"),
-            idle: gettext("Idle")
-        },
-        /** A heater's state: word and label class. */
-        heater: {
-            off: {text: gettext("off"), label: ""},
-            standby: {text: gettext("standby"), label: "label-info"},
-            active: {text: gettext("active"), label: "label-success"},
-            fault: {text: gettext("fault"), label: "label-important"},
-            tuning: {text: gettext("tuning"), label: "label-warning"},
-            offline: {text: gettext("offline"), label: "label-warning"}
-        },
-        blocked: {
-            heating: gettext("the printer waits for a temperature"),
-            long_command: gettext("the printer is busy with a long command"),
-            streaming: gettext("a file is being sent to the printer's card"),
-            buffers: gettext("the printer is short of memory for its answers")
-        },
-        /** What a person is told, by the code of a warning; others have the server's text. */
-        warning: {
-            halted: gettext(
-                "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
-            ),
-            off: gettext("The motors have no supply voltage."),
-            reset: gettext(
-                "The board was reset during the print, which can't go on. Cancel it, then home."
-            ),
-            message_box_unanswerable: gettext(
-                "The machine waits for an answer that this firmware does not take over USB. Answer on the machine's own page or panel, or reset the machine."
-            ),
-            long_running_commands: gettext(
-                "OctoPrint does not know some of RepRapFirmware's commands that take long."
-            ),
-            uppercase: gettext(
-                "OctoPrint's terminal would change file names and texts to upper case."
-            ),
-            unknown_commands: gettext(
-                "OctoPrint does not count the acknowledgements of T-1 and of commands such as echo."
-            ),
-            external_heatup: gettext(
-                "OctoPrint would take RepRapFirmware's temperature reports for a heat-up."
-            ),
-            profile_tools: gettext(
-                "The printer profile has fewer extruders than the machine's highest tool number needs, so that OctoPrint drops tool commands."
-            ),
-            profile_reconnect: gettext(
-                "Disconnect the printer and connect it again: OctoPrint still uses the old number of extruders."
-            )
-        },
-        numbered: {
-            heater_fault: gettext(
-                "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
-            ),
-            filament_error: gettext(
-                "The filament monitor of extruder %(number)s reports an error. Check the filament."
-            ),
-            driver_error: gettext(
-                "Motor driver %(number)s reports an error. Find the cause."
-            )
-        },
-        /** What the button of a warning says, by the command that it sends. */
-        fix: {
-            recover: gettext("Restart the machine"),
-            fix_settings: gettext("Set OctoPrint's settings"),
-            fix_profile: gettext("Raise the number of extruders")
-        }
-    });
-
     let words;
 
     /** A warning about one of several things: code, and numbers with underscores between. */
@@ -117,23 +34,16 @@ $(function () {
         return !warning.fix || warning.fix === "recover";
     }
 
-    function degrees(value) {
-        return typeof value === "number" ? value.toFixed(1) : "–";
-    }
-
-    /** A target as text: one that was never set is -273.15. */
-    function target(value) {
-        return typeof value === "number" && value > -273 ? value.toFixed(0) : "–";
-    }
+    const show = RRFModel.show;
 
     /** @returns {HeaterRow} */
     function heaterRow(name, heater) {
         const state = words.heater[heater.state] || {text: heater.state || "", label: ""};
         return {
             name: name,
-            current: degrees(heater.current),
-            active: target(heater.active),
-            standby: target(heater.standby),
+            current: show.degrees(heater.current),
+            active: show.target(heater.active),
+            standby: show.target(heater.standby),
             state: heater.state || "",
             stateText: state.text,
             labelClass: state.label
@@ -188,24 +98,24 @@ $(function () {
     function RrfModelSidebarViewModel(parameters) {
         const self = this;
 
-        words = makeWords();
+        const core = parameters[0];
+        words = RRFModel.words;
 
-        self.loginState = parameters[0];
-        self.access = parameters[1];
-
-        self.status = ko.observable({});
-        self.model = ko.observable({});
-        self.received = ko.observable({age: undefined, at: 0});
+        self.status = core.status;
         self.now = ko.observable(Date.now());
         self.told = {};
 
-        self.mayRead = ko.pureComputed(function () {
-            return self.loginState.hasPermission(self.access.permissions.PLUGIN_RRFMODEL_READ);
-        });
+        self.mayRead = core.mayRead;
 
-        self.isShown = ko.pureComputed(function () {
-            return self.mayRead() && !!self.status().connected && !!self.status().is_rrf;
-        });
+        /** The model's top-level keys that the sidebar shows. */
+        self.model = ko.pureComputed(() => ({
+            state: core.model("state"),
+            heat: core.model("heat"),
+            move: core.model("move"),
+            tools: core.model("tools")
+        }));
+
+        self.isShown = core.isRrf;
 
         self.state = ko.pureComputed(function () {
             return self.model().state || {};
@@ -258,14 +168,12 @@ $(function () {
 
         self.mayFix = function (fix) {
             const permission = NEEDED_FOR[fix];
-            return !!permission && self.loginState.hasPermission(self.access.permissions[permission]);
+            return !!permission && core.may(permission);
         };
 
         self.fix = function (row) {
             if (!self.mayFix(row.fix)) return;
-            OctoPrint.plugins.rrfmodel.command(row.fix).fail(function (xhr) {
-                self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));
-            });
+            core.command(row.fix);
         };
 
         self.firmwareText = ko.pureComputed(function () {
@@ -274,7 +182,7 @@ $(function () {
         });
 
         self.age = ko.pureComputed(function () {
-            const received = self.received();
+            const received = core.received();
             if (typeof received.age !== "number") return undefined;
             return received.age + Math.max(0, self.now() - received.at) / 1000;
         });
@@ -296,23 +204,8 @@ $(function () {
             return self.isStale() ? gettext("the printer does not answer") : "";
         });
 
-        self.requestData = function () {
-            if (!self.mayRead()) return;
-            OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
-                self.fromStatus(status);
-                if (!status.is_rrf || !status.revision) return;
-                OctoPrint.plugins.rrfmodel.getModel("", "d99vn").done(function (answer) {
-                    self.model(answer.result || {});
-                });
-            });
-        };
-
-        self.fromStatus = function (status) {
-            self.received({age: status.age, at: Date.now()});
-            self.now(Date.now());
-            self.status(status);
-            self.tell(status.warnings || []);
-        };
+        core.received.subscribe(() => self.now(Date.now()));
+        core.status.subscribe((status) => self.tell(status.warnings || []));
 
         /** Tell each warning once; it may be told again when its cause was gone in between. */
         self.tell = function (warnings) {
@@ -356,39 +249,6 @@ $(function () {
             return {confirm: true, buttons: [later, now]};
         };
 
-        self.notify = function (text) {
-            new PNotify({
-                title: gettext("RepRapFirmware"),
-                text: text,
-                title_escape: true,
-                text_escape: true,
-                type: "notice"
-            });
-        };
-
-        self.onStartupComplete = self.requestData;
-        self.onServerReconnect = self.requestData;
-        self.onUserPermissionsChanged =
-            self.onUserLoggedIn =
-            self.onUserLoggedOut =
-                function () {
-                    self.model({});
-                    self.requestData();
-                };
-
-        self.onDataUpdaterPluginMessage = function (plugin, message) {
-            if (plugin !== "rrfmodel" || !self.mayRead()) return;
-            if (message.type === "notice") {
-                self.notify(message.text);
-                return;
-            }
-            if (message.type === "reset") self.model({});
-            if (message.type === "model") {
-                self.model(Object.assign({}, self.model(), message.changed));
-            }
-            self.fromStatus(message.status);
-        };
-
         window.setInterval(function () {
             if (self.isShown() && !document.hidden) self.now(Date.now());
         }, 1000);
@@ -396,7 +256,7 @@ $(function () {
 
     OCTOPRINT_VIEWMODELS.push({
         construct: RrfModelSidebarViewModel,
-        dependencies: ["loginStateViewModel", "accessViewModel"],
+        dependencies: ["rrfModelViewModel"],
         elements: ["#sidebar_plugin_rrfmodel"]
     });
 });

@@ -1,0 +1,26 @@
+"""The scripts and styles of the page, in the order in which they run."""
+
+SCRIPTS = (
+    # what the others are made of
+    "words",
+    "rows",
+    "core",
+    # regions of the page, each on its own
+    "sidebar",
+    "machine",
+    "machine_parts",
+    "job",
+    "chart",
+    "model",
+    "box",
+    "notifications",
+    "settings",
+    "wizard",
+)
+
+ASSETS = {
+    "js": [f"js/{name}.js" for name in SCRIPTS],
+    "clientjs": ["clientjs/rrfmodel.js"],
+    "css": ["css/rrfmodel.css"],
+}
+"""In the form of OctoPrint's ``AssetPlugin``."""

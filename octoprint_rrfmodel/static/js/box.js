@@ -1,0 +1,1 @@
+/* Message boxes of the machine (M291). */

@@ -1,0 +1,1 @@
+/* The sub-view Chart: an hour of temperatures. */

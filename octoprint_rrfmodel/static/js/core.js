@@ -1,0 +1,205 @@
+/* What all regions of the page share: the model as it comes by push, permissions, commands. */
+window.RRFModel = {};
+
+$(function () {
+    /** Sub-views of the tab, in the order of their links; the address is TAB + "/" + name. */
+    const VIEWS = ["machine", "job", "chart", "model"];
+    const TAB = "#tab_plugin_rrfmodel";
+
+    /**
+     * Returns a function `key => value` over the model that moves only while `isShown()` does:
+     * who is hidden costs nothing, and catches up when shown.
+     */
+    function Feed(latest, isShown) {
+        const self = this;
+        const values = {};
+        const behind = new Set();
+
+        const observed = function (key) {
+            return values[key] || (values[key] = ko.observable(latest[key]));
+        };
+
+        self.of = function (key) {
+            return observed(key)();
+        };
+
+        /** Takes note of top-level keys that changed. */
+        self.changed = function (keys) {
+            keys.forEach((key) => behind.add(key));
+            self.catchUp();
+        };
+
+        self.catchUp = function () {
+            if (!isShown() || !behind.size) return;
+            const keys = Array.from(behind);
+            behind.clear();
+            keys.forEach((key) => observed(key)(latest[key]));
+        };
+
+        isShown.subscribe(self.catchUp);
+    }
+
+    function RrfModelViewModel(parameters) {
+        const self = this;
+        const latest = {};
+        const feeds = [];
+
+        // gettext comes with OctoPrint's own scripts, which run after this file
+        RRFModel.words = RRFModel.makeWords();
+
+        self.loginState = parameters[0];
+        self.access = parameters[1];
+        self.settings = parameters[2];
+
+        /** The plugin's state, section 2 of its API. */
+        self.status = ko.observable({});
+        self.received = ko.observable({age: undefined, at: 0});
+
+        self.may = function (permission) {
+            return self.loginState.hasPermission(self.access.permissions[permission]);
+        };
+        self.mayRead = ko.pureComputed(() => self.may("PLUGIN_RRFMODEL_READ"));
+        self.mayControl = ko.pureComputed(() => self.may("PLUGIN_RRFMODEL_CONTROL"));
+        self.maySet = ko.pureComputed(() => self.may("SETTINGS"));
+
+        self.isRrf = ko.pureComputed(
+            () => self.mayRead() && !!self.status().connected && !!self.status().is_rrf
+        );
+
+        //~~ which part of the page is seen
+
+        self.pageIsVisible = ko.observable(!document.hidden);
+        self.tabIsOpen = ko.observable(false);
+        self.view = ko.observable(VIEWS[0]);
+
+        /** Whether a sub-view of the tab is seen now. */
+        self.isShown = (name) =>
+            ko.pureComputed(
+                () => self.pageIsVisible() && self.tabIsOpen() && self.view() === name
+            );
+
+        const subscribed = function (isShown) {
+            // one that nobody listens to would be computed anew at each question
+            isShown.subscribe(() => undefined);
+            const feed = new Feed(latest, isShown);
+            feeds.push(feed);
+            return feed.of;
+        };
+
+        /** Returns `key => value of that top-level key` for a sub-view. */
+        self.modelOfView = (name) => subscribed(self.isShown(name));
+
+        /** The same for what is seen whichever tab is open. */
+        self.model = subscribed(self.pageIsVisible);
+
+        /** The whole model as it came last, for who asks at a click. */
+        self.latest = latest;
+
+        self.address = (name) => TAB + "/" + name;
+
+        self.views = VIEWS.map((name) => ({
+            name: name,
+            address: self.address(name),
+            title: RRFModel.words.view[name],
+            isOpen: ko.pureComputed(() => self.view() === name)
+        }));
+
+        // OctoPrint picks the tab whose link has the page's address, so that the link has to follow
+        const follow = function () {
+            const name = window.location.hash.slice(TAB.length + 1);
+            if (!window.location.hash.startsWith(TAB) || !VIEWS.includes(name)) return;
+            self.view(name);
+            $(TAB + "_link a").attr("href", self.address(name));
+        };
+
+        self.onStartup = function () {
+            // links of the tab lead elsewhere, its content stays where it is
+            $(TAB + "_link a").attr("data-target", TAB);
+            $(window).on("hashchange", follow);
+            follow();
+        };
+
+        self.onTabChange = function (current) {
+            self.tabIsOpen((current || "").split("/")[0] === TAB);
+        };
+
+        self.onBrowserTabVisibilityChange = self.pageIsVisible;
+
+        //~~ what comes from the server
+
+        const replace = function (model) {
+            const keys = new Set([...Object.keys(latest), ...Object.keys(model)]);
+            Object.keys(latest).forEach((key) => delete latest[key]);
+            Object.assign(latest, model);
+            feeds.forEach((feed) => feed.changed(keys));
+        };
+
+        self.requestData = function () {
+            if (!self.mayRead()) return;
+            OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
+                self.fromStatus(status);
+                if (!status.is_rrf || !status.revision) return;
+                OctoPrint.plugins.rrfmodel.getModel("", "d99vn").done(function (answer) {
+                    replace(answer.result || {});
+                });
+            });
+        };
+
+        self.fromStatus = function (status) {
+            self.received({age: status.age, at: Date.now()});
+            self.status(status);
+        };
+
+        self.onStartupComplete = self.requestData;
+        self.onServerReconnect = self.requestData;
+        self.onUserPermissionsChanged =
+            self.onUserLoggedIn =
+            self.onUserLoggedOut =
+                function () {
+                    replace({});
+                    self.requestData();
+                };
+
+        self.onDataUpdaterPluginMessage = function (plugin, message) {
+            if (plugin !== "rrfmodel" || !self.mayRead()) return;
+            if (message.type === "notice") {
+                self.notify(message.text);
+                return;
+            }
+            if (message.type === "reset") replace({});
+            if (message.type === "model") {
+                Object.assign(latest, message.changed);
+                const keys = Object.keys(message.changed);
+                feeds.forEach((feed) => feed.changed(keys));
+            }
+            self.fromStatus(message.status);
+        };
+
+        //~~ what goes to the server
+
+        /** Sends a command; a refusal is told in the server's words. Returns the promise. */
+        self.command = function (name, values) {
+            return OctoPrint.plugins.rrfmodel.command(name, values).fail(self.tellRefusal);
+        };
+
+        self.tellRefusal = function (xhr) {
+            self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));
+        };
+
+        self.notify = function (text, type) {
+            return new PNotify({
+                title: gettext("RepRapFirmware"),
+                text: text,
+                title_escape: true,
+                text_escape: true,
+                type: type || "notice"
+            });
+        };
+    }
+
+    OCTOPRINT_VIEWMODELS.push({
+        construct: RrfModelViewModel,
+        dependencies: ["loginStateViewModel", "accessViewModel", "settingsViewModel"],
+        elements: ["#tab_plugin_rrfmodel_link", "#rrfmodel_views"]
+    });
+});

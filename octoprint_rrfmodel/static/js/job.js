@@ -1,0 +1,1 @@
+/* The sub-view Job: the board's own print. */

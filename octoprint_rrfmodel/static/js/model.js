@@ -1,0 +1,1 @@
+/* The sub-view Model: the whole object model as a tree. */

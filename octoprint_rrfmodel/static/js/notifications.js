@@ -1,0 +1,1 @@
+/* What is told once when it begins, and taken back when it is over. */

@@ -1,0 +1,1 @@
+/* The plugin's settings: what RepRapFirmware needs of OctoPrint, and the printer profile. */
