@@ -1,5 +1,7 @@
 """The plugin's tab in a real browser: opened as somebody, a sub-view at a time."""
 
+import json
+
 from playwright.sync_api import expect
 
 from tests.support.browser import open_octoprint
@@ -32,10 +34,10 @@ def type_number(field, number):
 
 
 def board_value(board, key):
-    """Return the value that the board itself has for a key."""
-    from . import helpers
-
-    return helpers.own_reply(board, key, "vnd99")["result"]
+    """Return the value that the board itself has for a key, ``None`` while it has no time."""
+    said = board.board.execute(f'M409 K"{key}" F"vnd99"', channel="http").splitlines()
+    replies = [line for line in said if line.startswith("{")]
+    return json.loads(replies[-1])["result"] if replies else None
 
 
 def wait_board(server, board, key, wanted, seconds=SECONDS):

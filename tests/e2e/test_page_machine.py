@@ -5,7 +5,15 @@ import pytest
 from tests.support.basedir import ADMIN, READER
 
 from . import helpers
-from .page import board_value, open_view, own_errors, part, type_number, wait_board, wait_text
+from .page import (
+    board_value,
+    open_view,
+    own_errors,
+    part,
+    type_number,
+    wait_board,
+    wait_text,
+)
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -29,15 +37,143 @@ def view(page, server):
     return open_view(page, server, ADMIN, "machine")
 
 
-def test_tools(view, server, board, page_errors):
+def near(wanted):
+    return lambda found: found is not None and abs(found - wanted) < 0.01
+
+
+def axis(view, letter):
+    return view.locator(f"[data-test=axis-row][data-axis={letter}]")
+
+
+def test_tool_temperatures_and_state(view, server, board, page_errors):
     tool = part(view, "tool").first
     type_number(part(tool, "active"), 61)
     wait_board(server, board, "tools[1].active[0]", 61)
     type_number(part(tool, "standby"), 43)
     wait_board(server, board, "tools[1].standby[0]", 43)
-    part(tool, "state-standby").click()
-    wait_board(server, board, "tools[1].state", "standby")
-    wait_text(part(tool, "state"), "standby")
-    part(tool, "state-off").click()
-    wait_board(server, board, "tools[1].state", "off")
+    for state in ("standby", "active", "off"):
+        part(tool, f"state-{state}").click()
+        wait_board(server, board, "heat.heaters[1].state", state)
+        wait_text(part(tool, "state"), state)
     assert own_errors(page_errors) == []
+
+
+def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
+    field = part(part(view, "tool").first, "standby")
+    before = field.input_value()
+    field.fill("99")
+    board.board.execute("M568 P3 S31", channel="http")
+    wait_board(server, board, "tools[3].active[0]", 31)
+    helpers.wait_polls(server, 3)
+    assert field.input_value() == "99"
+    field.press("Escape")
+    assert field.input_value() == before
+    assert board_value(board, "tools[1].standby[0]") != 99
+
+
+def test_what_is_out_of_range_is_not_sent(view, server, board):
+    field = part(part(view, "tool").first, "active")
+    before = board_value(board, "tools[1].active[0]")
+    type_number(field, 900)
+    assert field.input_value() == "900"
+    type_number(field, 37)
+    wait_board(server, board, "tools[1].active[0]", 37)
+    assert before != 900
+
+
+def test_bed(view, server, board, page_errors):
+    bed = part(view, "bed")
+    type_number(part(bed, "active"), 44)
+    wait_board(server, board, "heat.heaters[0].active", 44)
+    type_number(part(bed, "standby"), 33)
+    wait_board(server, board, "heat.heaters[0].standby", 33)
+    for state in ("standby", "active", "off"):
+        part(bed, f"state-{state}").click()
+        wait_board(server, board, "heat.heaters[0].state", state)
+    assert own_errors(page_errors) == []
+
+
+def test_axes(view, server, board, page_errors):
+    part(view, "home-all").click()
+    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    wait_text(part(axis(view, "X"), "homed"), "homed")
+    part(axis(view, "X"), "homed").and_(view.locator(".label-success")).wait_for()
+    type_number(part(axis(view, "X"), "go"), 40)
+    wait_board(server, board, "move.axes[0].userPosition", near(40))
+    part(view, "step").filter(has_text="10").first.click()
+    part(axis(view, "X"), "plus").click()
+    wait_board(server, board, "move.axes[0].userPosition", near(50))
+    part(axis(view, "X"), "minus").click()
+    wait_board(server, board, "move.axes[0].userPosition", near(40))
+    wait_text(part(axis(view, "X"), "user"), "40.00")
+    part(axis(view, "Y"), "home").click()
+    helpers.wait_polls(server, 2)
+    assert own_errors(page_errors) == []
+
+
+def test_selecting_feeding_and_putting_down(view, server, board, page_errors):
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    tool = part(view, "tool").first
+    part(tool, "select").click()
+    wait_board(server, board, "state.currentTool", 1, 30)
+    view.locator("[data-test=tool].rrfmodel-chosen").wait_for()
+    board.board.execute("M568 P1 S210 A2", channel="http")
+    helpers.wait_value(server, "heat.heaters[1].current", lambda now: now > 200, 90)
+    before = board_value(board, "move.extruders[0].position")
+    part(view, "extrude-length").fill("6")
+    part(view, "extrude").click()
+    wait_board(server, board, "move.extruders[0].position", near(before + 6), 30)
+    part(view, "retract").click()
+    wait_board(server, board, "move.extruders[0].position", near(before), 30)
+    board.board.execute("M568 P1 A0", channel="http")
+    part(view, "deselect").click()
+    wait_board(server, board, "state.currentTool", -1, 30)
+    assert own_errors(page_errors) == []
+
+
+def test_fans_factors_and_baby_steps(view, server, board, page_errors):
+    type_number(part(part(view, "fan").first, "speed"), 55)
+    wait_board(server, board, "fans[0].requestedValue", near(0.55))
+    type_number(part(view, "speed-factor"), 120)
+    wait_board(server, board, "move.speedFactor", near(1.2))
+    type_number(part(view, "extrusion-factor").first, 95)
+    wait_board(server, board, "move.extruders[0].factor", near(0.95))
+    board.board.execute("G28", channel="http")
+    part(view, "babystep-by").filter(has_text="+0.05").click()
+    wait_board(server, board, "move.axes[2].babystep", near(0.05))
+    wait_text(part(view, "babystep"), "0.050")
+    part(view, "babystep-clear").click()
+    wait_board(server, board, "move.axes[2].babystep", near(0))
+    assert own_errors(page_errors) == []
+
+
+def test_heater_fault_is_reset(view, server, board):
+    board.board.inject("heater_fault:2")
+    wait_text(part(view, "fault"), "Heater 2")
+    board.board.clear("heater_fault")
+    part(view, "reset-fault").click()
+    wait_board(server, board, "heat.heaters[2].state", "off")
+    part(view, "fault").wait_for(state="detached")
+
+
+def test_text_of_the_printer_is_text(view, server, board, page_errors):
+    board.board.execute(f'M563 P1 S"{MARKUP}"', channel="http")
+    wait_text(part(view, "tool").first, MARKUP)
+    assert view.locator("img").count() == 0
+    board.board.execute('M563 P1 S"Left"', channel="http")
+    assert own_errors(page_errors) == []
+
+
+def test_who_may_only_read_can_use_nothing(page, server):
+    view = open_view(page, server, READER, "machine")
+    controls = view.locator("button:visible, input:visible")
+    assert controls.count() > 20
+    assert {control.is_disabled() for control in controls.all()} == {True}
+
+
+def test_refusals_are_told(page, view, server, board):
+    board.board.execute("M18", channel="http")
+    helpers.wait_value(server, "move.axes[0].homed", False, 15)
+    part(axis(view, "X"), "plus").click()
+    wait_text(page.locator(".ui-pnotify-text").last, "Home these axes first: X")

@@ -40,6 +40,9 @@ $(function () {
             const first = heaterOf(indices[0]);
             return {
                 current: indices.map((index) => show.degrees(heaterOf(index).current)).join(" / "),
+                // a tool stays what it was when only its heaters are switched off (M568 A0)
+                state: first.state || "",
+                stateText: stateWord(first.state).text,
                 min: first.min,
                 max: first.max,
                 faults: indices.filter((index) => heaterOf(index).state === "fault")
@@ -71,8 +74,6 @@ $(function () {
                         name: tool.name || _.sprintf(gettext("Tool %(number)s"), tool),
                         isSelected: state.currentTool === tool.number,
                         hasHeater: list(tool.heaters).length > 0,
-                        state: tool.state || "",
-                        stateText: stateWord(tool.state).text,
                         active: target(tool.active),
                         standby: target(tool.standby),
                         filament: fed.filament || "",
@@ -112,8 +113,6 @@ $(function () {
                             command: kind.command,
                             index: found.index,
                             name: found.index ? kind.title + " " + found.index : kind.title,
-                            state: found.item.state || "",
-                            stateText: stateWord(found.item.state).text,
                             hasStandby: kind.command === "bed",
                             active: target(found.item.active),
                             standby: target(found.item.standby)
