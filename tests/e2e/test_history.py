@@ -7,7 +7,8 @@ from tests.support.basedir import READER
 from . import helpers
 
 PATH = "/plugin/rrfmodel/history"
-FILE = "Two layers.gcode"
+LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 100))
+"""A print of three layers: seconds on the board's clock, which is twenty times as fast."""
 
 
 @pytest.fixture(scope="module")
@@ -87,13 +88,17 @@ def test_a_stale_model_leaves_a_gap(server):
 
 def test_layers_of_a_job(server, board):
     server.wait_for(lambda: helpers.status(server)["ready"], 60, "the model")
-    board.board.execute(f'M32 "{FILE}"', channel="http")
-    server.wait_for(
-        lambda: [layer["layer"] for layer in history(server)["layers"]] == [1, 2], 90, "the layers"
-    )
+    board.board.card.write("0:/gcodes/layers.gcode", LAYERS)
+    board.board.execute('M32 "layers.gcode"', channel="http")
+    server.wait_for(lambda: len(history(server)["layers"]) == 3, 60, "the layers")
     told = history(server)
-    assert all(layer["seconds"] > 0 for layer in told["layers"])
-    assert told["began"] < told["layers"][0]["at"] < told["layers"][1]["at"] <= told["now"]
+    assert [layer["layer"] for layer in told["layers"]] == [1, 2, 3]
+    first, second, last = (layer["seconds"] for layer in told["layers"])
+    assert first == pytest.approx(60, abs=3)
+    assert second == pytest.approx(80, abs=3)
+    # as it was seen last
+    assert 60 < last <= 102
+    assert told["began"] < told["layers"][0]["at"] < told["layers"][-1]["at"] <= told["now"]
     assert history(server, since=told["now"])["layers"] == []
     with server.client(READER) as reader:
         assert reader.get(PATH).json()["layers"] == told["layers"]
