@@ -4,7 +4,7 @@ $(function () {
     const SHORTEST = 30;
     const LONGEST = 3600;
     /** Samples that are drawn of a series before several become one. */
-    const MOST_SAMPLES = 400;
+    const MOST_SAMPLES = 250;
     const COLOURS = 10;
     /** What is shown until somebody chooses otherwise. */
     const SHOWN = {current: true, target: true, pwm: false};
