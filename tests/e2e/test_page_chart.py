@@ -199,8 +199,12 @@ def test_narrow(page, view):
     page.add_style_tag(content="#rrfmodel_chart { width: 440px; }")
     part(view, "zoom-in").click()
     wait_range(page, lambda *seen: length(*seen) == 450)
-    overflow = "element => element.scrollWidth - element.clientWidth"
-    assert page.locator("#rrfmodel_chart").evaluate(overflow) <= 0
+    # the drawing follows the width a little later
     page.wait_for_function(
-        "() => $('#rrfmodel_chart .rrfmodel-plot').data('plot').width() < 440", timeout=5000
+        """() => {
+            const region = document.querySelector("#rrfmodel_chart");
+            return region.scrollWidth <= region.clientWidth;
+        }""",
+        timeout=10_000,
     )
+    assert page.evaluate("() => $('#rrfmodel_chart .rrfmodel-plot').data('plot').width()") < 440

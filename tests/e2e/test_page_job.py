@@ -252,6 +252,12 @@ def test_narrow(page, view):
     page.set_viewport_size({"width": 480, "height": 900})
     page.add_style_tag(content="#rrfmodel_job { width: 440px; }")
     part(view, "layers").wait_for(state="visible", timeout=30_000)
-    overflow = "element => element.scrollWidth - element.clientWidth"
-    assert page.locator("#rrfmodel_job").evaluate(overflow) <= 0
+    # the drawing follows the width a little later
+    page.wait_for_function(
+        """() => {
+            const region = document.querySelector("#rrfmodel_job");
+            return region.scrollWidth <= region.clientWidth;
+        }""",
+        timeout=10_000,
+    )
     expect(part(view, "pause")).to_be_visible()
