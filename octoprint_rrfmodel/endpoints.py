@@ -9,8 +9,8 @@ from .moonraker import body
 class Endpoints(BlueprintPlugin):
     """Hands each request to the part that answers it.
 
-    The class that inherits it has ``_api`` (``api.ModelApi``) and ``_interfaces``
-    (``interfaces.Interfaces``).
+    The class that inherits it has ``_api`` (``api.ModelApi``), ``_history``
+    (``history.MachineHistory``) and ``_interfaces`` (``interfaces.Interfaces``).
     """
 
     def is_blueprint_protected(self):
@@ -26,6 +26,10 @@ class Endpoints(BlueprintPlugin):
     @BlueprintPlugin.route("/model", methods=["GET"])
     def get_model(self):
         return self._api.get_model(flask.request.args)
+
+    @BlueprintPlugin.route("/history", methods=["GET"])
+    def get_history(self):
+        return self._history.get_history(flask.request.args)
 
     @BlueprintPlugin.route("/metrics", methods=["GET"])
     def get_metrics(self):

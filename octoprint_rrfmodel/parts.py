@@ -13,6 +13,7 @@ from .api import ModelApi
 from .comm import CommBridge
 from .display import Display
 from .helpers import Helpers
+from .history import MachineHistory
 from .interfaces import Interfaces
 from .live import LiveQuestions
 from .neighbours import Neighbours
@@ -65,7 +66,7 @@ class Parts:
                 "refused": lambda line: self._poller.refused(line),
                 "refused_operation": self._notice,
                 "heard": self._on_heard,
-                "said": lambda line: self.interfaces.heard(line),
+                "said": self._on_said,
                 "look": lambda key: self._poller.look(key),
                 "send": self._send_lines,
                 **self.protection.handlers,
@@ -74,6 +75,7 @@ class Parts:
                 lambda: self._poller.tick(),
                 lambda: self._push.tick(),
                 lambda: self.interfaces.tick(),
+                lambda: self.history.tick(),
             ],
         )
         refused = partial(self.worker.notify, "refused_operation")
@@ -103,6 +105,7 @@ class Parts:
         self._poller = Poller(
             self._follower, self._card, self.bridge, self._send, self._on_reply, clock
         )
+        self.history = MachineHistory(self._model, self._poller.is_stale)
         self.status = PluginStatus(
             host.version,
             self.bridge,
@@ -212,8 +215,13 @@ class Parts:
 
     def _on_reply(self, taken, asked_at):
         self._show(taken, asked_at)
+        self.history.replied()
         # last, for then this thread has nothing more to do that sockets would wait for
         self.interfaces.replied(taken)
+
+    def _on_said(self, line):
+        self.history.heard(line)
+        self.interfaces.heard(line)
 
     def _show(self, taken, asked_at):
         if taken.reset:
@@ -247,5 +255,6 @@ class Parts:
         self.protection.disconnecting()
         self._poller.stop()
         self._push.forgotten()
+        self.history.forgotten()
         self.interfaces.forgotten()
         self.neighbours.forgotten()

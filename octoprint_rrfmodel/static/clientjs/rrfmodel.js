@@ -23,6 +23,12 @@
             return this.base.get(this.url + "model?" + query, opts);
         }
 
+        /** Resolves to what is kept for charts, since a time of the server or all of it. */
+        getHistory(since, opts) {
+            const query = since === undefined ? "" : "?" + $.param({since: since});
+            return this.base.get(this.url + "history" + query, opts);
+        }
+
         /** Sends a command to the plugin; rejects with its reason in `responseJSON.error`. */
         command(name, parameters, opts) {
             return this.base.simpleApiCommand("rrfmodel", name, parameters || {}, opts);
