@@ -3,6 +3,7 @@
 import flask
 from octoprint.plugin import BlueprintPlugin
 
+from .meanings import get_meanings
 from .moonraker import body
 
 
@@ -26,6 +27,10 @@ class Endpoints(BlueprintPlugin):
     @BlueprintPlugin.route("/model", methods=["GET"])
     def get_model(self):
         return self._api.get_model(flask.request.args)
+
+    @BlueprintPlugin.route("/meanings", methods=["GET"])
+    def get_meanings(self):
+        return get_meanings()
 
     @BlueprintPlugin.route("/metrics", methods=["GET"])
     def get_metrics(self):
