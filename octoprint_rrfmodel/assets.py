@@ -5,6 +5,7 @@ SCRIPTS = (
     "words",
     "rows",
     "core",
+    "tree",
     # regions of the page, each on its own
     "sidebar",
     "machine",

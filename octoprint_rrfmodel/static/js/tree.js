@@ -1,5 +1,5 @@
 /* The object model as a tree: its nodes, what changed in them, and which of them are shown. */
-(function () {
+$(function () {
     const LEAF = 0;
     const LIST = 1;
     const OBJECT = 2;
@@ -318,10 +318,6 @@
         return node.lowerText;
     }
 
-    /** The command that asks the printer for a path. */
-    function commandFor(path) {
-        return 'M409 K"' + path.replace(/"/g, '""') + '"';
-    }
-
-    window.RrfModelTree = {ModelTree: ModelTree, valueText: valueText, commandFor: commandFor};
-})();
+    RRFModel.ModelTree = ModelTree;
+    RRFModel.treeValue = valueText;
+});
