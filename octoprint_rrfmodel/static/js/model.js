@@ -9,11 +9,16 @@ $(function () {
     /** A row of the page: which node it shows changes with scrolling, its elements stay. */
     function Slot(number) {
         this.id = "rrfmodel_node_" + number;
-        this.node = null;
+        this.node = this.revision = null;
         this.shape = ko.observable({});
         this.value = ko.observable("");
         this.isLit = ko.observable(false);
     }
+
+    const valueOf = (node) =>
+        typeof node.value === "number" && node.unit ? node.text + " " + node.unit : node.text;
+
+    const hasChildren = (node) => !!node.children && node.children.length > 0;
 
     function RrfModelModelViewModel(parameters) {
         const self = this;
@@ -21,64 +26,80 @@ $(function () {
         const tree = new RRFModel.ModelTree();
         const model = core.modelOfView("model");
         const isShown = core.isShown("model");
-        let seen = {};
-        let view = {top: 0, height: 0, row: 0};
-        let dimming = null;
+        // what is seen of the tree, in pixels; asked only when it may have changed
+        const sight = {top: 0, height: 0, row: 1};
+        let revision = 0;
         let selected = null;
-        let hasMeanings = false;
+        let dimming = null;
+        let isExplained = false;
 
         self.isSeen = ko.pureComputed(() => isShown() && core.isRrf());
-
         self.text = ko.observable("");
         self.onlyChanged = ko.observable(false);
         self.onlyLive = ko.observable(false);
+        self.count = ko.observable("");
         self.slots = ko.observableArray();
         self.height = ko.observable("0");
         self.shift = ko.observable("");
         self.activeId = ko.observable(null);
-        self.count = ko.observable("");
         self.detail = ko.observable(null);
         self.detailValue = ko.observable("");
         self.copied = ko.observable("");
 
         const box = () => document.querySelector("#rrfmodel_model [role=tree]");
 
-        //~~ from the model to the rows
+        const measure = function () {
+            sight.top = box().scrollTop;
+            sight.height = box().clientHeight;
+            sight.row = parseFloat(window.getComputedStyle(box()).lineHeight);
+            self.height(tree.rows.length * sight.row + "px");
+        };
 
-        /** Take what is other than before; a key that didn't change is the same object. */
-        const take = function () {
-            const latest = core.latest;
-            const keys = Object.keys(Object.assign({}, seen, latest)).filter(
-                (key) => seen[key] !== latest[key]
-            );
-            if (!keys.length) return false;
-            seen = Object.assign({}, latest);
-            return tree.update(keys, latest, Date.now());
+        //~~ from the tree to the rows
+
+        const countText = function () {
+            if (!tree.isFiltered()) return "";
+            if (!tree.rows.length) return gettext("Nothing found");
+            return _.sprintf(gettext("Rows found: %(count)d"), {count: tree.rows.length});
         };
 
         const render = function () {
             if (tree.layOut()) {
-                self.height(tree.rows.length * view.row + "px");
-                self.count(tree.isFiltered() ? countText(tree.rows.length) : "");
-                if (selected && !isThere(selected)) select(null);
+                revision++;
+                self.height(tree.rows.length * sight.row + "px");
+                self.count(countText());
+                if (selected && selected.isGone) select(null);
             }
-            const wanted = Math.ceil(view.height / view.row) + 2 * SPARE || 0;
-            if (self.slots.peek().length < wanted) addSlots(wanted);
+            const slots = self.slots.peek();
+            const wanted = Math.ceil(sight.height / sight.row) + 2 * SPARE;
+            if (slots.length < wanted) {
+                self.slots(_.range(wanted).map((number) => slots[number] || new Slot(number)));
+            }
             const last = Math.max(0, tree.rows.length - wanted);
-            const first = Math.min(last, Math.max(0, Math.floor(view.top / view.row) - SPARE));
-            self.shift("translateY(" + first * view.row + "px)");
+            const first = Math.min(last, Math.max(0, Math.floor(sight.top / sight.row) - SPARE));
+            self.shift("translateY(" + first * sight.row + "px)");
             const now = Date.now();
-            let activeId = null;
-            let isAnyLit = false;
+            let active = null;
             self.slots.peek().forEach(function (slot, place) {
-                const node = tree.rows[first + place] || null;
+                const node = tree.rows[first + place];
                 fill(slot, node, now);
-                isAnyLit = isAnyLit || slot.isLit.peek();
-                if (node && node === selected) activeId = slot.id;
+                if (node && node === selected) active = slot.id;
             });
-            self.activeId(activeId);
-            if (selected) self.detailValue(valueAndUnit(selected));
-            if (isAnyLit && !dimming) dimming = window.setTimeout(dim, LIT_MS);
+            self.activeId(active);
+            if (selected) self.detailValue(valueOf(selected));
+        };
+
+        const fill = function (slot, node, now) {
+            if (slot.node !== node || slot.revision !== revision) {
+                slot.node = node;
+                slot.revision = revision;
+                slot.shape(node ? shapeOf(node) : {});
+            }
+            slot.value(node ? valueOf(node) : "");
+            const isLit =
+                !!node && now - node.changedAt < LIT_MS && !(hasChildren(node) && tree.isOpen(node));
+            slot.isLit(isLit);
+            if (isLit && !dimming) dimming = window.setTimeout(dim, LIT_MS);
         };
 
         const dim = function () {
@@ -86,128 +107,57 @@ $(function () {
             if (self.isSeen.peek()) render();
         };
 
-        const addSlots = function (wanted) {
-            const more = [];
-            for (let number = self.slots.peek().length; number < wanted; number++) {
-                more.push(new Slot(number));
-            }
-            self.slots(self.slots.peek().concat(more));
-        };
-
-        const fill = function (slot, node, now) {
-            const shape = slot.shape.peek();
-            const isOpen = !!node && tree.isOpen(node);
-            if (
-                slot.node !== node ||
-                (node &&
-                    (shape.isOpen !== isOpen ||
-                        shape.isSelected !== (node === selected) ||
-                        shape.meaning !== node.meaning ||
-                        shape.place !== node.place ||
-                        shape.siblings !== node.siblings))
-            ) {
-                slot.node = node;
-                slot.shape(node ? shapeOf(node, isOpen) : {});
-            }
-            slot.value(node ? valueAndUnit(node) : "");
-            slot.isLit(!!node && !(node.children && isOpen) && now - node.changedAt < LIT_MS);
-        };
-
-        const shapeOf = (node, isOpen) => ({
+        const shapeOf = (node) => ({
             name: node.name,
             meaning: node.meaning,
             indent: node.depth * INDENT + "px",
             level: node.depth + 1,
             place: node.place,
             siblings: node.siblings,
-            isOpen: isOpen,
-            expanded: node.children && node.children.length ? String(isOpen) : null,
+            expanded: hasChildren(node) ? String(tree.isOpen(node)) : null,
             isSelected: node === selected
         });
-
-        const valueAndUnit = (node) =>
-            RRFModel.treeValue(node) + (typeof node.value === "number" && node.unit ? " " + node.unit : "");
-
-        const countText = (rows) =>
-            rows
-                ? _.sprintf(gettext("Rows found: %(count)d"), {count: rows})
-                : gettext("Nothing found");
-
-        const isThere = (node) => {
-            for (let above = node.parent; above; node = above, above = node.parent) {
-                if (!above.children || !above.children.includes(node)) return false;
-            }
-            return true;
-        };
-
-        /** Note how much is seen; asked only when that may have changed. */
-        const measure = function () {
-            const element = box();
-            view.top = element.scrollTop;
-            view.height = element.clientHeight;
-            view.row = parseFloat(window.getComputedStyle(element).lineHeight);
-        };
-
-        const show = function () {
-            measure();
-            take();
-            tree.forget();
-            if (!hasMeanings) {
-                hasMeanings = true;
-                OctoPrint.plugins.rrfmodel
-                    .getMeanings()
-                    .done(function (meanings) {
-                        tree.learn(meanings);
-                        if (self.isSeen.peek()) render();
-                    })
-                    .fail(function (xhr) {
-                        hasMeanings = false;
-                        core.tellRefusal(xhr);
-                    });
-            }
-            render();
-        };
 
         //~~ what a person does
 
         const select = function (node) {
             selected = node;
+            revision++;
             self.copied("");
-            self.detail(node && {path: node.path, meaning: node.meaning, unit: node.unit});
+            self.detail(node && {path: node.path, meaning: node.meaning});
         };
 
-        const toggle = (node, isOpen) => tree.open(node, isOpen === undefined ? !tree.isOpen(node) : isOpen);
+        const toggle = (node) => tree.open(node, !tree.isOpen(node));
 
         self.pick = function (slot) {
-            if (!slot.node) return;
             select(slot.node);
             toggle(slot.node);
             render();
         };
 
         self.scrolled = function () {
-            view.top = box().scrollTop;
+            sight.top = box().scrollTop;
             render();
         };
 
-        /** Keys as in the ARIA practices for trees: what each does with the selected row. */
-        const page = () => Math.max(1, Math.floor(view.height / view.row) - 1);
+        /** As in the ARIA practices for trees: which row is next; some open or close one. */
         const KEYS = {
             ArrowDown: (place) => place + 1,
             ArrowUp: (place) => place - 1,
-            PageDown: (place) => place + page(),
-            PageUp: (place) => place - page(),
             Home: () => 0,
             End: () => tree.rows.length - 1,
             ArrowRight: function (place, node) {
-                if (!node || !node.children || !node.children.length) return place;
+                if (!node || !hasChildren(node)) return place;
                 if (tree.isOpen(node)) return place + 1;
-                toggle(node, true);
+                toggle(node);
                 return place;
             },
             ArrowLeft: function (place, node) {
-                if (node && node.children && tree.isOpen(node)) toggle(node, false);
-                else if (node && node.parent.parent) return tree.rows.indexOf(node.parent);
+                if (!node) return place;
+                if (!hasChildren(node) || !tree.isOpen(node)) {
+                    return node.depth ? tree.rows.indexOf(node.parent) : place;
+                }
+                toggle(node);
                 return place;
             },
             Enter: function (place, node) {
@@ -215,25 +165,19 @@ $(function () {
                 return place;
             }
         };
-        KEYS[" "] = KEYS.Enter;
 
         self.pressed = function (_self, event) {
             const key = KEYS[event.key];
             if (!key || event.ctrlKey || event.altKey || event.metaKey) return true;
-            const place = selected ? tree.rows.indexOf(selected) : -1;
-            const next = Math.min(tree.rows.length - 1, Math.max(0, key(place, tree.rows[place])));
+            const place = tree.rows.indexOf(selected);
+            const wanted = key(place, tree.rows[place]);
+            const next = Math.min(tree.rows.length - 1, Math.max(0, wanted));
             select(tree.rows[next] || null);
-            keepInSight(next);
             render();
+            const top = next * sight.row;
+            const lowest = top + sight.row - sight.height;
+            box().scrollTop = Math.min(top, Math.max(lowest, sight.top));
             return false;
-        };
-
-        const keepInSight = function (place) {
-            const top = place * view.row;
-            const lowest = top + view.row - view.height;
-            const wanted = Math.min(top, Math.max(lowest, view.top));
-            if (wanted === view.top) return;
-            box().scrollTop = view.top = wanted;
         };
 
         self.flip = (flag) => () => flag(!flag());
@@ -258,32 +202,53 @@ $(function () {
 
         //~~ when all that happens
 
+        const explain = function () {
+            if (isExplained) return;
+            isExplained = true;
+            OctoPrint.plugins.rrfmodel.getMeanings().then(
+                function (meanings) {
+                    tree.learn(meanings);
+                    if (self.isSeen.peek()) render();
+                },
+                function (xhr) {
+                    isExplained = false;
+                    core.tellRefusal(xhr);
+                }
+            );
+        };
+
+        const show = function () {
+            measure();
+            tree.update(core.latest, Date.now());
+            self.forget();
+            explain();
+        };
+
         self.onStartupComplete = function () {
-            self.isSeen.subscribe((is) => is && show());
+            self.isSeen.subscribe((isSeen) => isSeen && show());
             if (self.isSeen()) show();
             $(window).on("resize", function () {
                 if (!self.isSeen()) return;
                 measure();
-                tree.isReshaped = true;
                 render();
             });
-            // a message brings its status last; where none comes, the state of the machine moves
+            // a message brings the status last; where none comes, the machine's state is replaced
             ko.computed(function () {
                 if (!self.isSeen()) return;
                 core.received();
                 model("state");
-                ko.ignoreDependencies(() => take() && render());
+                ko.ignoreDependencies(() => tree.update(core.latest, Date.now()) && render());
             });
-            const find = ko.pureComputed(() => ({
+            ko.pureComputed(() => ({
                 text: self.text(),
                 changed: self.onlyChanged(),
                 live: self.onlyLive()
-            }));
-            find.extend({rateLimit: {timeout: 150, method: "notifyWhenChangesStop"}});
-            find.subscribe(function (wanted) {
-                tree.search(wanted);
-                render();
-            });
+            }))
+                .extend({rateLimit: {timeout: 150, method: "notifyWhenChangesStop"}})
+                .subscribe(function (wanted) {
+                    tree.search(wanted);
+                    render();
+                });
         };
     }
 

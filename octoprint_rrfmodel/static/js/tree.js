@@ -4,117 +4,92 @@ $(function () {
     const LIST = 1;
     const OBJECT = 2;
 
-    /**
-     * @typedef {object} Node
-     * @property {string} name as its parent has it, `[3]` for an element
-     * @property {string} path as M409 takes it, `heat.heaters[0].current`
-     * @property {string} pattern the same with `[]` for any element
-     * @property {*} value of a leaf
-     * @property {?Node[]} children in the order they are shown
-     * @property {boolean} changed since the last `forget()`
-     * @property {number} changedAt when it or something below it changed
-     * @property {boolean} live whether the firmware says that it changes frequently
-     * @property {number} place among its shown siblings, from 1
-     * @property {number} siblings how many of them are shown
-     */
+    /** Below these anybody names what is there. */
+    const OPEN = /^(global|job\.file\.customInfo)\./;
 
-    function kindOf(value) {
-        if (value === null || typeof value !== "object") return LEAF;
-        return Array.isArray(value) ? LIST : OBJECT;
-    }
+    const kindOf = (value) =>
+        value === null || typeof value !== "object" ? LEAF : Array.isArray(value) ? LIST : OBJECT;
 
-    /** @returns {Node} */
-    function makeNode(parent, step) {
-        const inList = !!parent && parent.kind === LIST;
-        const name = inList ? "[" + step + "]" : step;
+    /** What is at a path; `pattern` is the path with [] for any element. */
+    function Node(parent, step) {
+        const inList = parent && parent.kind === LIST;
         const joint = inList || !parent || !parent.path ? "" : ".";
-        return {
-            parent: parent,
-            name: name,
-            path: parent ? parent.path + joint + name : "",
-            pattern: parent ? parent.pattern + (inList ? "[]" : joint + name) : "",
-            depth: parent ? parent.depth + 1 : -1,
-            kind: parent ? undefined : OBJECT,
-            value: undefined,
-            text: null,
-            lowerText: null,
-            lowerPath: null,
-            children: parent ? null : [],
-            members: parent ? null : new Map(),
-            isOpen: !parent,
-            isOpenFound: null,
-            changed: false,
-            changedAt: -Infinity,
-            unit: "",
-            meaning: "",
-            live: false,
-            isShown: true,
-            isFound: false,
-            leads: false,
-            place: 0,
-            siblings: 0
-        };
+        this.parent = parent;
+        this.step = step;
+        this.name = inList ? "[" + step + "]" : step;
+        this.path = parent ? parent.path + joint + this.name : "";
+        this.pattern = parent ? parent.pattern + joint + (inList ? "[]" : step) : "";
+        this.depth = parent ? parent.depth + 1 : -1;
+        this.kind = this.value = undefined;
+        this.children = null;
+        this.members = null;
+        this.text = "";
+        this.unit = this.meaning = "";
+        this.isLive = this.isOpen = this.isChanged = this.isGone = false;
+        this.changedAt = 0;
+        // in what is searched: shown, found itself or below, one of those below, opened by hand
+        this.isShown = this.isFound = this.leads = false;
+        this.isOpenFound = null;
+        // among its shown siblings
+        this.place = this.siblings = 0;
     }
 
-    class ModelTree {
+    function each(node, action) {
+        action(node);
+        if (node.children) for (const child of node.children) each(child, action);
+    }
+
+    const discard = (nodes) =>
+        (nodes || []).forEach((child) => each(child, (node) => (node.isGone = true)));
+
+    RRFModel.ModelTree = class {
         constructor() {
-            this.root = makeNode(null, "");
-            this.rows = [];
+            this.root = new Node(null, "");
             this.meanings = {};
-            this.find = {text: "", changed: false, live: false};
-            this.isReshaped = true;
-            this.isSearched = true;
-            this.unjudged = new Set();
+            this.rows = [];
+            this.now = 0;
+            this.search({text: "", changed: false, live: false});
         }
 
-        /** Take the values of top-level keys; return whether anything changed. */
-        update(keys, model, now) {
+        /** Takes the model; returns whether anything changed. What is the same object is skipped. */
+        update(model, now) {
             this.now = now;
-            let changed = false;
-            keys.forEach((key) => {
-                const value = model[key];
-                const isGone = value === undefined || value === null;
-                if (isGone ? !this.drop(key) : !this.takeMember(this.root, key, value)) return;
-                changed = true;
-                this.unjudged.add(key);
-            });
-            if (changed && (this.find.text || this.find.changed)) this.isReshaped = true;
-            return changed;
+            // the model itself stays the same object
+            this.root.value = null;
+            const isChanged = this.take(this.root, model);
+            if (isChanged && this.isFiltered()) this.isReshaped = true;
+            return isChanged;
         }
 
         /** Nothing has changed from here on. */
         forget() {
-            each(this.root, (node) => {
-                node.changed = false;
-                node.changedAt = -Infinity;
+            this.all((node) => {
+                node.isChanged = false;
+                node.changedAt = 0;
             });
-            this.isReshaped = this.isSearched = true;
         }
 
-        /** Learn units and meanings, by pattern. */
+        /** Takes units and meanings, by pattern. */
         learn(meanings) {
             this.meanings = meanings;
-            each(this.root, (node) => this.explain(node));
-            this.isReshaped = this.isSearched = true;
+            this.all((node) => this.explain(node));
         }
 
-        /** Show only what has the text in its name or value, changed, is live; as asked. */
-        search(find) {
-            const text = find.text.trim().toLowerCase();
-            this.find = {
-                text: text,
-                isPath: /[.[]/.test(text),
-                changed: find.changed,
-                live: find.live
-            };
-            each(this.root, (node) => {
-                node.isOpenFound = null;
-            });
-            this.isReshaped = this.isSearched = true;
+        /** Shows only what has the text in its name or value, changed, is live; as asked. */
+        search(wanted) {
+            const text = wanted.text.trim().toLowerCase();
+            this.wanted = Object.assign({}, wanted, {text: text, isPath: /[.[]/.test(text)});
+            this.all((node) => (node.isOpenFound = null));
+        }
+
+        all(action) {
+            each(this.root, action);
+            this.isReshaped = true;
+            this.judgedAt = 0;
         }
 
         isFiltered() {
-            return !!this.find.text || this.find.changed || this.find.live;
+            return !!this.wanted.text || this.wanted.changed || this.wanted.live;
         }
 
         isOpen(node) {
@@ -123,74 +98,55 @@ $(function () {
         }
 
         open(node, isOpen) {
-            if (!node.children) return;
             node[this.isFiltered() ? "isOpenFound" : "isOpen"] = isOpen;
             this.isReshaped = true;
         }
 
         openAll(isOpen) {
-            each(this.root, (node) => {
-                if (node.parent) this.open(node, isOpen);
-            });
+            each(this.root, (node) => this.open(node, isOpen));
         }
 
-        /** Open everything above a node. */
-        reveal(node) {
-            for (let above = node.parent; above && above.parent; above = above.parent) {
-                if (!this.isOpen(above)) this.open(above, true);
-            }
-        }
-
-        /** Bring `rows` up to date; return whether that was needed. */
+        /** Brings `rows` up to date; returns whether that was needed. */
         layOut() {
             if (!this.isReshaped) return false;
-            this.isReshaped = false;
             if (this.isFiltered()) {
-                this.root.children.forEach((child) => {
-                    if (this.isSearched || this.unjudged.has(child.name)) this.judge(child, false);
-                });
-                this.isSearched = false;
+                for (const child of this.root.children || []) {
+                    if (child.changedAt >= this.judgedAt) this.judge(child, false);
+                }
+                this.judgedAt = this.now;
             }
-            this.unjudged.clear();
+            this.isReshaped = false;
             this.rows = [];
             this.list(this.root);
             return true;
         }
 
-        /** Decide whether a node is shown, and whether it or what is below was itself found. */
         judge(node, isBelowFound) {
-            const find = this.find;
-            const onlySome = find.changed || find.live;
-            const isNamed = !!find.text && !isBelowFound && this.hasName(node);
-            const passes = isBelowFound || isNamed || !find.text;
+            const {text, isPath, changed, live} = this.wanted;
+            const name = (isPath ? node.path : node.name).toLowerCase();
+            const isNamed = isBelowFound || name.includes(text);
             node.leads = false;
             if (!node.children || !node.children.length) {
-                const isFound = passes || (!find.isPath && textOf(node).indexOf(find.text) >= 0);
                 node.isShown =
-                    isFound && (!find.changed || node.changed) && (!find.live || node.live);
-                node.isFound = node.isShown && (!isBelowFound || onlySome);
+                    (isNamed || (!isPath && node.text.toLowerCase().includes(text))) &&
+                    (!changed || node.isChanged) &&
+                    (!live || node.isLive);
+                node.isFound = node.isShown && (!isBelowFound || changed || live);
                 return;
             }
-            let isShown = passes && !onlySome;
+            const isEnough = isNamed && !changed && !live;
+            node.isShown = isEnough;
             for (const child of node.children) {
-                this.judge(child, isBelowFound || isNamed);
-                isShown = isShown || child.isShown;
+                this.judge(child, isNamed);
+                node.isShown = node.isShown || child.isShown;
                 node.leads = node.leads || child.isFound;
             }
-            node.isShown = isShown;
-            node.isFound = node.leads || (isNamed && isShown);
-        }
-
-        hasName(node) {
-            if (node.lowerPath === null) node.lowerPath = node.path.toLowerCase();
-            const place = node.lowerPath.lastIndexOf(this.find.text);
-            return place >= 0 && (this.find.isPath || place >= node.path.length - node.name.length);
+            node.isFound = node.leads || (isEnough && !isBelowFound);
         }
 
         list(node) {
-            const shown = this.isFiltered()
-                ? node.children.filter((child) => child.isShown)
-                : node.children;
+            let shown = node.children || [];
+            if (this.isFiltered()) shown = shown.filter((child) => child.isShown);
             shown.forEach((child, index) => {
                 child.place = index + 1;
                 child.siblings = shown.length;
@@ -200,124 +156,68 @@ $(function () {
         }
 
         take(node, value) {
+            if (value === node.value) return false;
             const kind = kindOf(value);
-            let changed = false;
+            let isChanged = kind === LEAF || kind !== node.kind;
+            node.value = value;
             if (kind !== node.kind) {
+                discard(node.children);
                 node.kind = kind;
                 node.children = kind === LEAF ? null : [];
-                node.members = kind === OBJECT ? new Map() : null;
-                node.text = node.lowerText = null;
+                node.members = kind === LEAF ? null : new Map();
+                this.explain(node);
                 this.isReshaped = true;
-                changed = true;
             }
-            if (kind !== LEAF) {
-                const below = kind === LIST ? this.takeList(node, value) : this.takeMembers(node, value);
-                changed = below || changed;
-            } else if (value !== node.value) {
-                node.value = value;
-                node.text = node.lowerText = null;
-                changed = true;
-            }
-            if (changed) {
-                node.changed = true;
+            if (kind === LEAF) node.text = JSON.stringify(value);
+            else isChanged = this.takeMembers(node, value) || isChanged;
+            if (isChanged) {
+                node.isChanged = true;
                 node.changedAt = this.now;
             }
-            return changed;
-        }
-
-        takeList(node, values) {
-            const children = node.children;
-            let changed = false;
-            for (let index = 0; index < values.length; index++) {
-                if (index === children.length) children.push(this.begin(node, String(index)));
-                changed = this.take(children[index], values[index]) || changed;
-            }
-            if (children.length === values.length) return changed;
-            children.length = values.length;
-            this.isReshaped = true;
-            return true;
+            return isChanged;
         }
 
         takeMembers(node, values) {
-            const names = Object.keys(values);
-            let changed = false;
-            names.forEach((name) => {
-                changed = this.takeMember(node, name, values[name]) || changed;
-            });
-            if (node.members.size === names.length) return changed;
-            const kept = new Set(names);
-            node.children = node.children.filter((child) => kept.has(child.name));
-            node.members = new Map(node.children.map((child) => [child.name, child]));
-            this.isReshaped = true;
-            return true;
-        }
-
-        takeMember(node, name, value) {
-            let child = node.members.get(name);
-            if (!child) {
-                child = this.begin(node, name);
-                node.members.set(name, child);
-                insert(node.children, child);
+            const steps = Object.keys(values);
+            let isChanged = false;
+            for (const step of steps) {
+                let child = node.members.get(step);
+                if (!child) {
+                    child = new Node(node, step);
+                    node.members.set(step, child);
+                    this.insert(node, child);
+                }
+                isChanged = this.take(child, values[step]) || isChanged;
             }
-            return this.take(child, value);
+            if (node.members.size > steps.length) {
+                const isKept = new Set(steps);
+                discard(node.children.filter((child) => !isKept.has(child.step)));
+                node.children = node.children.filter((child) => isKept.has(child.step));
+                node.members = new Map(node.children.map((child) => [child.step, child]));
+                this.isReshaped = isChanged = true;
+            }
+            node.text = (node.kind === LIST ? "[#]" : "{#}").replace("#", steps.length);
+            return isChanged;
         }
 
-        drop(name) {
-            const child = this.root.members.get(name);
-            if (!child) return false;
-            this.root.members.delete(name);
-            this.root.children = this.root.children.filter((other) => other !== child);
-            this.isReshaped = true;
-            return true;
-        }
-
-        begin(parent, step) {
-            const node = makeNode(parent, step);
-            this.explain(node);
-            this.isReshaped = true;
-            return node;
+        /** Puts a member where its name belongs; most come in order. */
+        insert(node, child) {
+            let place = node.children.length;
+            if (node.kind === OBJECT) {
+                while (place && node.children[place - 1].name > child.name) place--;
+            }
+            node.children.splice(place, 0, child);
         }
 
         /** A list's values mean what the list means, variables what all of them do. */
         explain(node) {
-            const known = Object.prototype.hasOwnProperty.call(this.meanings, node.pattern);
-            const own = known ? this.meanings[node.pattern] : null;
-            const above = node.parent || {};
-            const isElement = above.kind === LIST || OPEN.test(node.pattern);
-            node.unit = own ? own.unit : isElement ? above.unit : "";
-            node.meaning = own ? own.text : isElement ? above.meaning : "";
-            node.live = own ? !!own.live : isElement && !!above.live;
+            const isElement = node.parent && node.parent.kind === LIST && node.kind !== OBJECT;
+            const above = isElement || OPEN.test(node.pattern) ? node.parent : {};
+            const isKnown = Object.prototype.hasOwnProperty.call(this.meanings, node.pattern);
+            const own = isKnown ? this.meanings[node.pattern] : {};
+            node.unit = own.unit || above.unit || "";
+            node.meaning = own.text || above.meaning || "";
+            node.isLive = !!(own.live || above.isLive);
         }
-    }
-
-    function each(node, action) {
-        action(node);
-        if (node.children) for (const child of node.children) each(child, action);
-    }
-
-    /** Put a member where its name belongs; most come in order. */
-    function insert(children, child) {
-        let place = children.length;
-        while (place && children[place - 1].name > child.name) place--;
-        children.splice(place, 0, child);
-    }
-
-    /** Below these anybody names what is there. */
-    const OPEN = /^(global|job\.file\.customInfo)\./;
-
-    /** The value as the row shows it: JSON for a leaf, else how much is below. */
-    function valueText(node) {
-        if (node.kind === LIST) return "[" + node.children.length + "]";
-        if (node.kind === OBJECT) return "{" + node.children.length + "}";
-        if (node.text === null) node.text = JSON.stringify(node.value);
-        return node.text;
-    }
-
-    function textOf(node) {
-        if (node.lowerText === null) node.lowerText = valueText(node).toLowerCase();
-        return node.lowerText;
-    }
-
-    RRFModel.ModelTree = ModelTree;
-    RRFModel.treeValue = valueText;
+    };
 });
