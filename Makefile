@@ -112,7 +112,7 @@ BABEL := $(VENV_2.0)/bin/python -m babel.messages.frontend
 LANGUAGES := $(notdir $(patsubst %/LC_MESSAGES/messages.po,%,$(wildcard translations/*/LC_MESSAGES/messages.po)))
 
 translations: .venv/octoprint-2.0/.ready
-	@$(BABEL) --quiet extract --mapping-file=babel.cfg --output-file=translations/messages.pot \
+	@$(BABEL) --quiet extract --mapping-file=babel.cfg --keyword=N_ --output-file=translations/messages.pot \
 		--project=OctoPrint-RRFModel --copyright-holder="OctoPrint-RRFModel developers" \
 		--no-location --sort-output .
 	@for language in $(LANGUAGES); do \

@@ -6,6 +6,7 @@ SCRIPTS = (
     "rows",
     "core",
     "history",
+    "tree",
     # regions of the page, each on its own
     "sidebar",
     "machine",

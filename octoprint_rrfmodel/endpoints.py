@@ -3,6 +3,7 @@
 import flask
 from octoprint.plugin import BlueprintPlugin
 
+from .meanings import get_meanings
 from .moonraker import body
 
 
@@ -30,6 +31,10 @@ class Endpoints(BlueprintPlugin):
     @BlueprintPlugin.route("/history", methods=["GET"])
     def get_history(self):
         return self._history.get_history(flask.request.args)
+
+    @BlueprintPlugin.route("/meanings", methods=["GET"])
+    def get_meanings(self):
+        return get_meanings()
 
     @BlueprintPlugin.route("/metrics", methods=["GET"])
     def get_metrics(self):

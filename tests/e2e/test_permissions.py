@@ -22,6 +22,7 @@ ENDPOINTS = [
     ("GET", f"{BASE}/model", None, READ, 200),
     ("GET", f"{BASE}/model/live?key=state.upTime", None, READ, 200),
     ("GET", f"{BASE}/history", None, READ, 200),
+    ("GET", f"{BASE}/meanings", None, READ, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),
     ("GET", f"{BASE}/printer/objects/list", None, READ, 200),

@@ -29,6 +29,11 @@
             return this.base.get(this.url + "history" + query, opts);
         }
 
+        /** Resolves to unit and meaning of the model's values, by path with [] for any element. */
+        getMeanings(opts) {
+            return this.base.get(this.url + "meanings", opts);
+        }
+
         /** Sends a command to the plugin; rejects with its reason in `responseJSON.error`. */
         command(name, parameters, opts) {
             return this.base.simpleApiCommand("rrfmodel", name, parameters || {}, opts);

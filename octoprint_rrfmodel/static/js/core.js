@@ -107,15 +107,23 @@ $(function () {
         // OctoPrint picks the tab whose link has the page's address, so that the link has to follow
         const follow = function () {
             const name = window.location.hash.slice(TAB.length + 1);
-            if (!window.location.hash.startsWith(TAB) || !VIEWS.includes(name)) return;
+            if (!window.location.hash.startsWith(TAB) || !VIEWS.includes(name)) return false;
             self.view(name);
             $(TAB + "_link a").attr("href", self.address(name));
+            return true;
+        };
+
+        // OctoPrint goes to its first tab where the link stands in the menu of those without room
+        const goThere = function () {
+            if (!follow()) return;
+            if (!self.tabIsOpen()) $(TAB + "_link a").tab("show");
+            OctoPrint.coreui.hashFromTabChange = true;
         };
 
         self.onStartup = function () {
             // links of the tab lead elsewhere, its content stays where it is
             $(TAB + "_link a").attr("data-target", TAB);
-            $(window).on("hashchange", follow);
+            $(window).on("hashchange", goThere);
             follow();
         };
 
@@ -139,7 +147,7 @@ $(function () {
             OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
                 self.fromStatus(status);
                 if (!status.is_rrf || !status.revision) return;
-                OctoPrint.plugins.rrfmodel.getModel("", "d99vn").done(function (answer) {
+                OctoPrint.plugins.rrfmodel.getModel("", "d99vno").done(function (answer) {
                     replace(answer.result || {});
                 });
             });

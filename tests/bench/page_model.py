@@ -1,0 +1,99 @@
+"""The sub-view Model in Chromium: the main thread's time for one update with every node open."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from octoprint_rrfmodel.simulator.board import Board
+from octoprint_rrfmodel.simulator.pty import PtyBoard
+from tests.bench.timing import verdict
+from tests.e2e import helpers
+from tests.e2e.page import open_view, part
+from tests.support.basedir import ADMIN
+from tests.support.browser import CHROMIUM, FLAGS
+from tests.support.server import OctoPrintServer
+
+LIMIT = 8.0
+NODES = (2000, 10000)
+UPDATES = 300
+
+ENLARGE = """(nodes) => {
+    const core = ko.dataFor(document.querySelector("#rrfmodel_views"));
+    const count = (value) =>
+        value && typeof value === "object"
+            ? Object.values(value).reduce((sum, below) => sum + 1 + count(below), 0)
+            : 0;
+    const sensors = JSON.parse(JSON.stringify(core.latest.sensors));
+    const sample = sensors.analog.find((sensor) => sensor);
+    const missing = nodes - count(core.latest);
+    const more = Math.max(0, Math.ceil(missing / (1 + count(sample))));
+    for (let number = 0; number < more; number++) {
+        sensors.analog.push(Object.assign({}, sample, {name: "sensor " + number}));
+    }
+    const status = core.status();
+    const message = {type: "model", revision: 1, changed: {sensors: sensors}, status: status};
+    core.onDataUpdaterPluginMessage("rrfmodel", message);
+    return count(core.latest);
+}"""
+
+# as long as SockJS's own work: text to values, then whatever the page does, then its layout
+UPDATE = """async (updates) => {
+    const core = ko.dataFor(document.querySelector("#rrfmodel_views"));
+    const tree = document.querySelector("#rrfmodel_model [role=tree]");
+    const keys = ["boards", "heat", "inputs", "move", "sensors", "state", "tools"];
+    const moved = (_name, value) =>
+        typeof value === "number" && Math.random() < 0.3 ? value + 0.1 : value;
+    const times = [];
+    for (let number = 0; number < updates; number++) {
+        const changed = Object.fromEntries(keys.map((key) => [key, core.latest[key]]));
+        const message = {type: "model", revision: number, changed: changed, status: core.status()};
+        const text = JSON.stringify(message, moved);
+        tree.scrollTop = (number * 97) % Math.max(1, tree.scrollHeight - tree.clientHeight);
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+        const start = performance.now();
+        core.onDataUpdaterPluginMessage("rrfmodel", JSON.parse(text));
+        tree.getBoundingClientRect();
+        times.push(performance.now() - start);
+    }
+    return times;
+}"""
+
+
+def measure() -> None:
+    """Print the 95th percentile for a large model and a very large one."""
+    from playwright.sync_api import sync_playwright
+
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        board = Board(machine="toolchanger")
+        with PtyBoard(board, Path(folder) / "rrf-bench") as pty, OctoPrintServer(
+            Path(folder) / "octoprint", ports_glob=f"{folder}/rrf-*"
+        ) as server:
+            server.connect(pty.link)
+            helpers.wait_ready(server)
+            browser = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)
+            page = browser.new_page()
+            view = open_view(page, server, ADMIN, "model")
+            # what follows comes from the script alone
+            server.disconnect()
+            for nodes in NODES:
+                _measure_with(page, view, nodes)
+
+
+def _measure_with(page: Any, view: Any, nodes: int) -> None:
+    found = page.evaluate(ENLARGE, nodes)
+    part(view, "open-all").click()
+    for what, text in (("all open", ""), ("searched", "e")):
+        part(view, "find").fill(text)
+        page.wait_for_timeout(500)
+        times = sorted(page.evaluate(UPDATE, UPDATES))
+        late = times[int(len(times) * 0.95)]
+        print(
+            f"model view, {found} nodes {what}: median {times[len(times) // 2]:.2f} ms,"
+            f" 95 % {late:.2f} ms; {verdict(late, LIMIT)}"
+        )
+
+
+if __name__ == "__main__":
+    measure()
