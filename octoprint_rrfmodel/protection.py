@@ -108,6 +108,7 @@ class Protection:
         self.handlers = {
             "halted": self._recovery.halted,
             "print_resumed": self.guard.resumed,
+            "print_waits": self.guard.waits_for,
             "print_bound": self.guard.ended,
             "settings_updated": self._settings.look,
         }
