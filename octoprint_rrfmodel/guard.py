@@ -44,6 +44,8 @@ class PrintGuard:
         self._was_reset = False
         self._told = frozenset()
         self._paused_for = None
+        # events come late: the next pause may be under way before the end of the last one is told
+        self._pausing_for = None
 
     def causes(self):
         """Return why the print may not go on, the worst first; nothing where there is none."""
@@ -54,7 +56,7 @@ class PrintGuard:
 
     def pause(self):
         """Return why the print was paused by the plugin, ``None`` where it wasn't."""
-        paused_for = self._paused_for
+        paused_for = self._pausing_for or self._paused_for
         if paused_for is None or not self.has_print():
             return None
         causes, message = paused_for
@@ -76,8 +78,8 @@ class PrintGuard:
             return
         if printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
             return
+        self._pausing_for = (tuple(causes), "")
         printer.pause_print()
-        self._paused_for = (tuple(causes), "")
         new = [cause for cause in causes if cause not in self._told]
         self._told = frozenset(causes)
         if new:
@@ -85,7 +87,7 @@ class PrintGuard:
 
     def waits_for(self, message):
         """Note that the print pauses at a message box that nobody could answer."""
-        self._paused_for = ((), message)
+        self._pausing_for = ((), message)
         self._tell("print_paused", waiting_text(message))
 
     def board_was_reset(self):
@@ -93,6 +95,11 @@ class PrintGuard:
         if self.has_print() and self._is_on(RESET.code):
             self._was_reset = True
             self.look()
+
+    def paused(self):
+        """Note that the print is paused, by whomever."""
+        self._paused_for = self._pausing_for or self._paused_for
+        self._pausing_for = None
 
     def resumed(self):
         """Note that somebody has resumed the print: it is paused again if it may not go on."""
@@ -104,7 +111,7 @@ class PrintGuard:
         """Note that there is no print any more, or another one."""
         self._was_reset = False
         self._told = frozenset()
-        self._paused_for = None
+        self._paused_for = self._pausing_for = None
 
     def handles(self, error):
         """Return whether a serious error of the firmware only pauses the print."""

@@ -112,10 +112,10 @@ def test_streamed(server, connected):
             # nothing goes out behind the place
             assert dwells(board) == [f"G4 P{before}" for before in range(number + 1)]
             if stop == BLOCKING_BOX:
-                (told,) = paused(server)
+                told = server.wait_for(lambda: paused(server), 5, "the warning")[0]
                 assert told["values"] == {"next": "answer", "message": "Is it S1 there?"}
             else:
-                assert paused(server) == []
+                server.wait_for(lambda: not paused(server), 5, "the end of the warning")
             resume(server)
         server.wait_state("Operational", 20)
         assert len(push.events("PrintPaused")) == len(stops)
