@@ -1,7 +1,14 @@
 """What a person should know or change: codes, sentences, and the command that mends it."""
 
-from .notices import warning_text
-from .rrf.alerts import UNANSWERABLE, alerts
+from .notices import paused_text, waiting_text, warning_text
+from .rrf.alerts import ADVICE, FAULT, LEVELS, RESET, UNANSWERABLE, WARNING, alerts
+
+PRINT_PAUSED = "print_paused"
+
+ALL_LEVELS = {**LEVELS, RESET.code: FAULT, PRINT_PAUSED: FAULT, "mqtt_topic": WARNING}
+"""How much each warning matters; those that aren't here are advice."""
+
+ORDER = (FAULT, WARNING, ADVICE)
 
 FIXES = {
     "halted": "recover",
@@ -35,21 +42,53 @@ class Advice:
         """Return the warnings, the worst first, in the form of the public contract, section 2."""
         if not self._is_rrf():
             was_halted = self._recovery.is_wanted and not self._is_operational()
-            return [_warning("halted")] if was_halted else []
-        found = alerts(self._model())
-        # some things are no matter of concern without a print
+            return [warning("halted")] if was_halted else []
+        found = alerts(self._model(), self._guard.has_print())
         found += [cause for cause in self._guard.causes() if cause not in found]
         if self._box.is_open and UNANSWERABLE not in found:
             found.append(UNANSWERABLE)
         codes = [*self._settings.missing, self._profile.problem()]
+        warnings = [
+            *self._paused(),
+            *map(_of_alert, found),
+            *(warning(code) for code in codes if code),
+        ]
+        return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
+
+    def _paused(self):
+        pause = self._guard.pause()
+        if pause is None:
+            return []
+        causes = [_of_alert(cause) for cause in pause.causes]
+        why = waiting_text(pause.message) if pause.message else _sentences(causes)
         return [
-            *(_warning(alert.code, alert.numbers, alert.name) for alert in found),
-            *(_warning(code) for code in codes if code),
+            {
+                "code": PRINT_PAUSED,
+                "text": paused_text(why, pause.what_next),
+                "level": ALL_LEVELS[PRINT_PAUSED],
+                "values": {"next": pause.what_next, "message": pause.message},
+                "causes": causes,
+            }
         ]
 
 
-def _warning(code, numbers=(), name=None):
-    warning = {"code": name or code, "text": warning_text(code, numbers)}
+def warning(code, values=None, name=None):
+    """Return a warning in the form of the public contract; ``name`` tells it from its like."""
+    told = {
+        "code": name or code,
+        "text": warning_text(code, values),
+        "level": ALL_LEVELS.get(code, ADVICE),
+    }
+    if values:
+        told["values"] = values
     if code in FIXES:
-        warning["fix"] = FIXES[code]
-    return warning
+        told["fix"] = FIXES[code]
+    return told
+
+
+def _of_alert(alert):
+    return warning(alert.code, alert.values, alert.name)
+
+
+def _sentences(warnings):
+    return " ".join(told["text"] for told in warnings)

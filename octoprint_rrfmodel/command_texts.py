@@ -76,6 +76,10 @@ def _of_things():
         "no_such_extruder": gettext(
             "The machine has no extruder %(value)s. Its extruders are: %(known)s."
         ),
+        "no_such_spindle": gettext(
+            "The machine has no spindle %(value)s. Its spindles are: %(known)s."
+        ),
+        "cannot_reverse": gettext("Spindle %(spindle)s turns in one direction only."),
         "no_such_object": gettext("The print has no object %(value)s. Its objects are: %(known)s."),
         "temperature": gettext(
             "The parameter %(parameter)s has to be above %(low)s °C and below %(high)s °C, the"
@@ -138,6 +142,9 @@ def _of_states():
         "no_job": gettext("The machine prints no file from its card that this could be done to."),
         "not_paused": gettext("No print from the machine's card is paused."),
         "no_objects": gettext("No print with named objects is under way on the machine."),
+        "not_cnc": gettext(
+            "Spindles turn only while the machine is a CNC machine. Set that with M453."
+        ),
         "no_power_control": gettext(
             "The machine has no power supply control. Set it up with M80 C in its config.g."
         ),

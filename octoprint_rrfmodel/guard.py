@@ -1,11 +1,13 @@
 """A print that OctoPrint streams, paused when the machine can't print: RRF leaves that to hosts."""
 
+from typing import NamedTuple
+
 import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from .api import refusal
-from .notices import warning_text
+from .notices import waiting_text, warning_text
 from .rrf.alerts import RESET, faults, is_resumable
 from .rrf.errors import guarded_alert
 
@@ -13,30 +15,58 @@ JOB_ENDPOINT = "api.controlJob"
 """OctoPrint's view of ``POST /api/job``."""
 
 
+class Pause(NamedTuple):
+    """Why the plugin has paused OctoPrint's print, and what a person can do about it."""
+
+    causes: tuple
+    """Alerts; those that hold now, or where none does any more those that were."""
+    message: str
+    """The text of a message box that the print came to, empty where it was none."""
+    what_next: str
+    """``wait`` until the causes are over, ``resume``, ``cancel``, ``answer`` the message."""
+
+
 class PrintGuard:
     """Pauses OctoPrint's own print, once for each cause, and keeps it paused until that is over.
 
     ``printer()`` is OctoPrint's printer. ``has_print()`` says whether it prints, or has paused,
     one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on(code)`` says
-    whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``refusal`` and
-    ``handles`` may be called by any thread, all else by the worker.
+    whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``causes``,
+    ``pause``, ``refusal`` and ``handles`` may be called by any thread, all else by the worker.
     """
 
     def __init__(self, printer, has_print, model, is_on, tell):
         self._printer = printer
-        self._has_print = has_print
+        self.has_print = has_print
         self._model = model
         self._is_on = is_on
         self._tell = tell
         self._was_reset = False
         self._told = frozenset()
+        self._paused_for = None
+        # events come late: the next pause may be under way before the end of the last one is told
+        self._pausing_for = None
 
     def causes(self):
         """Return why the print may not go on, the worst first; nothing where there is none."""
-        if not self._has_print():
+        if not self.has_print():
             return []
         found = [alert for alert in faults(self._model()) if self._is_on(alert.code)]
         return [RESET, *found] if self._was_reset else found
+
+    def pause(self):
+        """Return why the print was paused by the plugin, ``None`` where it wasn't."""
+        paused_for = self._pausing_for or self._paused_for
+        if paused_for is None or not self.has_print():
+            return None
+        causes, message = paused_for
+        if message:
+            return Pause((), message, "answer")
+        now = self.causes()
+        if not now:
+            return Pause(causes, "", "resume")
+        may_go_on = all(is_resumable(cause) for cause in now)
+        return Pause(tuple(now), "", "wait" if may_go_on else "cancel")
 
     def look(self):
         """Pause if there is a reason to; tell each reason once."""
@@ -48,32 +78,45 @@ class PrintGuard:
             return
         if printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
             return
+        self._pausing_for = (tuple(causes), "")
         printer.pause_print()
         new = [cause for cause in causes if cause not in self._told]
         self._told = frozenset(causes)
         if new:
             self._tell("print_paused", _sentences(new))
 
+    def waits_for(self, message):
+        """Note that the print pauses at a message box that nobody could answer."""
+        self._pausing_for = ((), message)
+        self._tell("print_paused", waiting_text(message))
+
     def board_was_reset(self):
         """Note that the board has begun anew."""
-        if self._has_print() and self._is_on(RESET.code):
+        if self.has_print() and self._is_on(RESET.code):
             self._was_reset = True
             self.look()
+
+    def paused(self):
+        """Note that the print is paused, by whomever."""
+        self._paused_for = self._pausing_for or self._paused_for
+        self._pausing_for = None
 
     def resumed(self):
         """Note that somebody has resumed the print: it is paused again if it may not go on."""
         self._told = frozenset()
+        self._paused_for = None
         self.look()
 
     def ended(self):
         """Note that there is no print any more, or another one."""
         self._was_reset = False
         self._told = frozenset()
+        self._paused_for = self._pausing_for = None
 
     def handles(self, error):
         """Return whether a serious error of the firmware only pauses the print."""
         code = guarded_alert(error)
-        return code is not None and self._has_print() and self._is_on(code)
+        return code is not None and self.has_print() and self._is_on(code)
 
     def refusal(self):
         """Return why the print may not be resumed, ``None`` where it may."""
@@ -109,4 +152,4 @@ class PrintGuard:
 
 
 def _sentences(alerts):
-    return " ".join(warning_text(alert.code, alert.numbers) for alert in alerts)
+    return " ".join(warning_text(alert.code, alert.values) for alert in alerts)

@@ -8,10 +8,10 @@ from octoprint.access.permissions import Permissions
 from octoprint.events import eventManager
 
 from . import psu
+from .advice import warning
 from .layer_progress import PLUGIN as DISPLAY_LAYER_PROGRESS
 from .layer_progress import LayerProgress, streamed_print
 from .mqtt import MqttPublisher, mqtt_publish
-from .notices import warning_text
 from .prompt import BoxPrompt, handler_of
 from .worker import Worker
 
@@ -81,7 +81,7 @@ class Neighbours:
     def warnings(self):
         """Return what a person should change, in the form of the plugin's state."""
         code = self._mqtt.problem()
-        return [{"code": code, "text": warning_text(code)}] if code else []
+        return [warning(code)] if code else []
 
     def _topic(self):
         is_on = self._settings().get_boolean(["mqtt", "enabled"])

@@ -21,6 +21,9 @@ def notice_text(code, detail):
             " console."
         ),
         "print_paused": gettext("The print was paused. %(detail)s"),
+        "board_reset": gettext(
+            "The board was reset. Its axes have to be homed again, and its heaters are off."
+        ),
         "recover_failed": gettext(
             "The machine did not come back after its restart. Check its power and cable, then"
             " connect."
@@ -38,9 +41,27 @@ def waiting_text(text):
     )
 
 
-def warning_text(code, numbers=()):
-    """Return the sentence for a warning's code, with its numbers in it."""
+def paused_text(why, what_next):
+    """Return the sentences for a print that the plugin paused; ``what_next`` as in ``guard``."""
     texts = {
+        "wait": gettext("The print was paused. %(why)s Then resume the print, or cancel it."),
+        "resume": gettext(
+            "The print was paused. %(why)s That is over now: resume the print, or cancel it."
+        ),
+        "cancel": gettext("The print was paused and can only be cancelled. %(why)s"),
+        "answer": gettext("The print was paused. %(why)s"),
+    }
+    return texts[what_next] % {"why": why}
+
+
+def warning_text(code, values=None):
+    """Return the sentence for a warning's code, with its values in it."""
+    texts = {**_of_the_machine(), **_of_boards(), **_of_octoprint()}
+    return texts[code] % (values or {})
+
+
+def _of_the_machine():
+    return {
         "halted": gettext(
             "The machine was stopped by an emergency stop. Restart it with M999 or its power"
             " switch."
@@ -60,6 +81,41 @@ def warning_text(code, numbers=()):
             "The machine waits for an answer that this firmware does not take over USB. Answer on"
             " the machine's own page or panel, or reset the machine."
         ),
+        "startup_error": gettext(
+            "Line %(line)s of %(file)s failed when the machine started: %(message)s"
+        ),
+        "filament_monitor_mode": gettext(
+            "The filament monitor of extruder %(number)s acts only on what the machine prints from"
+            " its own card. Give it S2 in its M591 in config.g, so that it acts on OctoPrint's"
+            " prints too."
+        ),
+    }
+
+
+def _of_boards():
+    return {
+        "supply_voltage": gettext(
+            "The supply of board %(number)s has fallen below 10 V. Check its power supply and"
+            " fuses."
+        ),
+        "driver_warning": gettext(
+            "Motor driver %(number)s is getting too hot. Cool it, or lower the motor's current."
+        ),
+        "open_load": gettext(
+            "Motor driver %(number)s reports that its motor may not be connected. Check its cable."
+        ),
+        "mcu_temperature": gettext(
+            "The processor of board %(number)s is hotter than 85 °C. Cool the board."
+        ),
+        "versions_differ": gettext(
+            "Board %(number)s runs firmware %(version)s and the main board %(main)s. Update them"
+            " to the same version."
+        ),
+    }
+
+
+def _of_octoprint():
+    return {
         "long_running_commands": gettext(
             "OctoPrint does not know some of RepRapFirmware's commands that take long."
         ),
@@ -85,4 +141,3 @@ def warning_text(code, numbers=()):
             " extruders."
         ),
     }
-    return texts[code] % {"number": ".".join(map(str, numbers))}

@@ -81,7 +81,9 @@ class Parts:
         refused = partial(self.worker.notify, "refused_operation")
         is_translated = partial(host.is_set, "operations")
         self._operations = OperationTranslator(self._machine, is_translated, refused)
-        self._unsendable = UnsendableCommands(self._machine, is_translated, refused)
+        self._unsendable = UnsendableCommands(
+            self._machine, is_translated, refused, partial(self.worker.notify, "print_waits")
+        )
         self.display = Display(lambda: self.bridge.connection, self._known_temperatures, host.fire)
         self._card = SdCard(
             CardPlan(),
@@ -228,6 +230,7 @@ class Parts:
             self._push.forgotten()
             self.neighbours.forgotten()
             self.protection.guard.board_was_reset()
+            self._notice("board_reset", "")
             return
         self._push.changed(taken.changes)
         self.neighbours.changed(taken.changes)

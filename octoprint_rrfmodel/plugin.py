@@ -109,7 +109,7 @@ class RrfModelPlugin(
         ]
 
     def get_template_vars(self):
-        return {group: list(DEFAULTS[group]) for group in ("operations", "replies")}
+        return {group: list(DEFAULTS[group]) for group in ("operations", "replies", "sidebar")}
 
     def is_template_autoescaped(self):
         return True

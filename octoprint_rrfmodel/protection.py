@@ -24,6 +24,14 @@ PRINT_BOUNDS = (
 )
 """Where one print ends or another begins."""
 
+NOTES = {
+    Events.PRINT_PAUSED: "print_paused",
+    Events.PRINT_RESUMED: "print_resumed",
+    Events.SETTINGS_UPDATED: "settings_updated",
+    **dict.fromkeys(PRINT_BOUNDS, "print_bound"),
+}
+"""Event of OctoPrint's to the note that it leaves for the worker."""
+
 DISABLED_PLUGIN = "plugin_pluginmanager_disable_plugin"
 """The plugin manager's event for a plugin that somebody takes out of use; one that needs a
 restart for that isn't told in any other way."""
@@ -107,7 +115,9 @@ class Protection:
         """What looks at requests to OctoPrint's API."""
         self.handlers = {
             "halted": self._recovery.halted,
+            "print_paused": self.guard.paused,
             "print_resumed": self.guard.resumed,
+            "print_waits": self.guard.waits_for,
             "print_bound": self.guard.ended,
             "settings_updated": self._settings.look,
         }
@@ -116,11 +126,7 @@ class Protection:
     @staticmethod
     def note_of(event):
         """Return the note that an event of OctoPrint's is to leave, ``None`` for most."""
-        if event == Events.PRINT_RESUMED:
-            return "print_resumed"
-        if event == Events.SETTINGS_UPDATED:
-            return "settings_updated"
-        return "print_bound" if event in PRINT_BOUNDS else None
+        return NOTES.get(event)
 
     def restore(self):
         """Set back what was changed of OctoPrint's own, as when the plugin will be gone."""

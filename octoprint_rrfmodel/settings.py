@@ -7,6 +7,19 @@ from .rrf.wording import ROWS as WORDING
 
 VERSION = 1
 
+SIDEBAR = (
+    "state",
+    "message",
+    "warnings",
+    "heaters",
+    "axes",
+    "fans",
+    "factors",
+    "job",
+    "data",
+)
+"""Rows of the sidebar, from top to bottom."""
+
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
     "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
@@ -26,6 +39,8 @@ DEFAULTS = {
     "layer_progress": True,
     # message boxes also in OctoPrint's own dialog for prompts of a printer
     "prompts": False,
+    # rows of the sidebar that are shown
+    "sidebar": dict.fromkeys(SIDEBAR, True),
     "simulator": {
         # whether the port RRF-SIM is offered
         "enabled": False,

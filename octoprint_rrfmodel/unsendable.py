@@ -2,7 +2,6 @@
 
 import logging
 
-from .notices import waiting_text
 from .rrf.operations import NOTHING, Lines
 from .rrf.unsendable import text_of_box, unsendable
 from .tags import FILE_TAG
@@ -15,13 +14,14 @@ class UnsendableCommands:
     """Says which commands are better not sent, whoever wants to.
 
     ``machine()`` is the view of the model that it depends on. ``is_on(row)`` says whether a row
-    of the table is switched on. ``refused(code, detail)`` only takes note.
+    of the table is switched on. ``refused(code, detail)`` and ``paused(message)`` only take note.
     """
 
-    def __init__(self, machine, is_on, refused):
+    def __init__(self, machine, is_on, refused, paused):
         self._machine = machine
         self._is_on = is_on
         self._refused = refused
+        self._paused = paused
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.unsendable")
 
     def instead(self, cmd, gcode, tags):
@@ -34,7 +34,7 @@ class UnsendableCommands:
             return None
         self._logger.info("Not sending %r: %s", cmd, row.reason)
         if row.pauses and FILE_TAG in tags:
-            self._refused("print_paused", waiting_text(text_of_box(cmd)))
+            self._paused(text_of_box(cmd))
             return PAUSE
         if row.is_told:
             self._refused(row.name, cmd)

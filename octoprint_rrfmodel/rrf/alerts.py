@@ -10,19 +10,30 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Callable, NamedTuple
 
+from .board_alerts import (
+    Found,
+    differing_versions,
+    driver_errors,
+    hot_drivers,
+    hot_processors,
+    low_supplies,
+    open_loads,
+)
 from .machine import Machine, array, mapping
 
 Model = Mapping[str, Any]
 
-DRIVER_ERRORS = 0b0100_1010_0011_1110
-"""Bits of ``boards[].drivers[].status`` that are errors: 1 over temperature, 2 and 3 short to
-ground, 4 and 5 short to supply, 9 an external driver's, 11 position not maintained, 14 move
-without tuning; Duet3D CANlib, ``StandardDriverStatus::ErrorMask``. Over-temperature warning, open
-load, stall and standstill are none."""
+FAULT, WARNING, ADVICE = "fault", "warning", "advice"
+"""How much a thing matters: something doesn't work, it may not work for long, it could work
+better."""
 
 FEEDING = frozenset(("ok", "noDataReceived", "noMonitor", "", None))
 """Words of ``sensors.filamentMonitors[].status`` that say nothing bad of the filament; a monitor
 that has just been switched on has received no data."""
+
+ONLY_OWN_PRINTS = 1
+"""``sensors.filamentMonitors[].enableMode`` of a monitor that acts only while the board itself
+prints (M591 S1; told from 3.5 on)."""
 
 LOSES_BOXES = ((3, 5, 0), (3, 6, 0))
 """From and to which firmware nobody can answer a box that USB waits for: M292 does not reach it
@@ -34,19 +45,27 @@ class Alert(NamedTuple):
 
     code: str
     numbers: tuple[int, ...] = ()
+    texts: tuple[tuple[str, str], ...] = ()
+    """What else belongs into its sentence, by name; some of it is the printer's own text."""
 
     @property
     def name(self) -> str:
         """The code with the numbers that tell it from others of its kind."""
         return "_".join([self.code, *map(str, self.numbers)])
 
+    @property
+    def values(self) -> dict[str, str]:
+        """What belongs into its sentence."""
+        number = {"number": ".".join(map(str, self.numbers))} if self.numbers else {}
+        return {**number, **dict(self.texts)}
+
 
 class Condition(NamedTuple):
     """One line of the table."""
 
     code: str
-    find: Callable[[Model], Iterator[tuple[int, ...]]]
-    """The numbers of each thing that is so."""
+    find: Callable[[Model], Iterator[Found]]
+    """Each thing that is so."""
     stops_a_print: bool
     resumable: bool
     """Whether a print may go on once this is over."""
@@ -54,43 +73,53 @@ class Condition(NamedTuple):
     """Why it matters, with the source."""
     only_printing: bool = False
     """Whether it is normal while nothing is printed."""
+    level: str = FAULT
 
 
-def _status(word: str) -> Callable[[Model], Iterator[tuple[int, ...]]]:
-    def find(model: Model) -> Iterator[tuple[int, ...]]:
+def _status(word: str) -> Callable[[Model], Iterator[Found]]:
+    def find(model: Model) -> Iterator[Found]:
         if mapping(model.get("state")).get("status") == word:
-            yield ()
+            yield Found()
 
     return find
 
 
-def _heaters(model: Model) -> Iterator[tuple[int, ...]]:
+def _heaters(model: Model) -> Iterator[Found]:
     for number, heater in enumerate(array(mapping(model.get("heat")).get("heaters"))):
         if mapping(heater).get("state") == "fault":
-            yield (number,)
+            yield Found((number,))
 
 
-def _monitors(model: Model) -> Iterator[tuple[int, ...]]:
+def _monitors(model: Model) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    """Yield each filament monitor that is on and watches what the current tool is fed with."""
     tool = Machine(model).current_tool
     fed = None if tool is None else tool.get("extruders")
     for number, monitor in enumerate(array(mapping(model.get("sensors")).get("filamentMonitors"))):
         monitor = mapping(monitor)
         # 0 is off, 1 while printing, 2 always; before 3.5 a truth value
         is_on = monitor.get("enableMode", monitor.get("enabled"))
-        is_fed = not isinstance(fed, list) or number in fed
+        if is_on and (not isinstance(fed, list) or number in fed):
+            yield number, monitor
+
+
+def _unfed(model: Model) -> Iterator[Found]:
+    for number, monitor in _monitors(model):
         status = monitor.get("status")
-        feeds = isinstance(status, (str, type(None))) and status in FEEDING
-        if is_on and is_fed and not feeds:
-            yield (number,)
+        if not isinstance(status, (str, type(None))) or status not in FEEDING:
+            yield Found((number,))
 
 
-def _drivers(model: Model) -> Iterator[tuple[int, ...]]:
-    for place, board in enumerate(map(mapping, array(model.get("boards")))):
-        address = board.get("canAddress")
-        for number, driver in enumerate(array(board.get("drivers"))):
-            status = mapping(driver).get("status")
-            if isinstance(status, int) and status & DRIVER_ERRORS:
-                yield (address if isinstance(address, int) else place, number)
+def _only_own_prints(model: Model) -> Iterator[Found]:
+    for number, monitor in _monitors(model):
+        if monitor.get("enableMode") == ONLY_OWN_PRINTS:
+            yield Found((number,))
+
+
+def _startup_error(model: Model) -> Iterator[Found]:
+    error = mapping(mapping(model.get("state")).get("startupError"))
+    if error:
+        members = ("file", "line", "message")
+        yield Found((), tuple((member, str(error.get(member, ""))) for member in members))
 
 
 def loses_boxes(version: tuple[int, int, int]) -> bool:
@@ -99,12 +128,12 @@ def loses_boxes(version: tuple[int, int, int]) -> bool:
     return first <= version <= last
 
 
-def _waiting(model: Model) -> Iterator[tuple[int, ...]]:
+def _waiting(model: Model) -> Iterator[Found]:
     if not loses_boxes(Machine(model).version):
         return
     for channel in map(mapping, array(model.get("inputs"))):
         if channel.get("name") == "USB" and channel.get("state") == "awaitingAcknowledgement":
-            yield ()
+            yield Found()
 
 
 CONDITIONS = (
@@ -131,20 +160,80 @@ CONDITIONS = (
     ),
     Condition(
         "filament_error",
-        _monitors,
+        _unfed,
         True,
         True,
         "Shows only in the model while a host prints (M591 S1); only what the current tool is fed"
         " with counts.",
         only_printing=True,
     ),
-    Condition("driver_error", _drivers, True, True, "A motor may stand still; told from 3.5 on."),
+    Condition(
+        "driver_error", driver_errors, True, True, "A motor may stand still; told from 3.5 on."
+    ),
     Condition(
         "message_box_unanswerable",
         _waiting,
         False,
         True,
         "USB waits for M292, which does not reach it (Duet3D/RepRapFirmware #1141).",
+    ),
+    Condition(
+        "startup_error",
+        _startup_error,
+        False,
+        True,
+        "What follows in config.g wasn't done; told from 3.5 on.",
+        level=WARNING,
+    ),
+    Condition(
+        "supply_voltage",
+        low_supplies,
+        False,
+        True,
+        "The board's motors have no force; an expansion board's supply shows in no status.",
+        level=WARNING,
+    ),
+    Condition(
+        "driver_warning",
+        hot_drivers,
+        False,
+        True,
+        "A driver that gets hotter still switches its motor off (over-temperature warning).",
+        level=WARNING,
+    ),
+    Condition(
+        "open_load",
+        open_loads,
+        False,
+        True,
+        "A moving motor may be unplugged; slow and standing ones say so for no reason.",
+        only_printing=True,
+        level=WARNING,
+    ),
+    Condition(
+        "mcu_temperature",
+        hot_processors,
+        False,
+        True,
+        "The processor is specified up to there.",
+        level=WARNING,
+    ),
+    Condition(
+        "versions_differ",
+        differing_versions,
+        False,
+        True,
+        "Boards of other versions misunderstand each other (Duet3D, updating CAN boards).",
+        level=WARNING,
+    ),
+    Condition(
+        "filament_monitor_mode",
+        _only_own_prints,
+        False,
+        True,
+        "With M591 S1 the firmware does nothing about it while a host prints.",
+        only_printing=True,
+        level=ADVICE,
     ),
 )
 
@@ -156,16 +245,18 @@ UNANSWERABLE = Alert("message_box_unanswerable")
 GUARDS = (*(row.code for row in CONDITIONS if row.stops_a_print), RESET.code)
 """The codes of what stops a print."""
 
+LEVELS = {row.code: row.level for row in CONDITIONS}
+
 _RESUMABLE = {row.code: row.resumable for row in CONDITIONS}
 
 
 def alerts(model: Model, is_printing: bool = False) -> list[Alert]:
     """Return what the model shows to be wrong, the worst first."""
     return [
-        Alert(row.code, numbers)
+        Alert(row.code, *found)
         for row in CONDITIONS
         if is_printing or not row.only_printing
-        for numbers in row.find(model)
+        for found in row.find(model)
     ]
 
 

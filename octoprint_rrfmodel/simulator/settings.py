@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Callable
+from typing import TYPE_CHECKING, Any, Callable
 
 from .build import NO_TAPER
 from .channel import Channel, Outcome
@@ -174,19 +174,34 @@ def firmware_retraction(board: Core, channel: Channel, command: Command) -> Outc
 
 
 def spindle(board: Core, channel: Channel, command: Command) -> Outcome:
-    """M3, M4, M5: the first spindle that is configured."""
-    for candidate in board.data.get("spindles") or ():
-        if candidate is None or candidate["state"] == "unconfigured":
-            continue
-        speed = command.integer("S")
-        if command.number == 5:
-            candidate.update(state="stopped", current=0)
-        else:
-            active = candidate["active"] if speed is None else speed
-            state = "forward" if command.number == 3 else "reverse"
-            candidate.update(active=active, current=active, state=state)
+    """M3, M4, M5: spindle P or the current tool's; M5 without any stops all of them.
+
+    RRF 3.5 GCodes2.cpp (M3, M4, M5), Spindle.cpp, SetRpm: the speed is kept as it was asked for,
+    the spindle turns within its limits.
+    """
+    spindles = board.data.get("spindles") or []
+    tool = board.current_tool() or {}
+    place = command.integer("P", tool.get("spindle", -1))
+    if place is None or not 0 <= place < len(spindles) or spindles[place] is None:
+        if command.number != 5 or "P" in command:
+            raise GCodeError("No P parameter and no active tool with spindle")
+        for other in spindles:
+            _turn(other, "stopped")
         return None
-    raise GCodeError("No spindle configured")
+    speed = command.integer("S")
+    if speed is not None and command.number != 5:
+        spindles[place]["active"] = speed
+    _turn(spindles[place], {3: "forward", 4: "reverse"}.get(command.number or 5, "stopped"))
+    board.bump("spindles")
+    return None
+
+
+def _turn(spindle: dict[str, Any] | None, state: str) -> None:
+    if spindle is None or spindle["state"] == "unconfigured":
+        return
+    turns = state != "stopped" and spindle["active"] > 0
+    speed = min(max(spindle["active"], spindle["min"]), spindle["max"])
+    spindle.update(state=state, current=speed if turns else 0)
 
 
 def machine_mode(mode: str) -> Callable[[Core, Channel, Command], Outcome]:

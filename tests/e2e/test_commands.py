@@ -143,6 +143,20 @@ CASES = [
         lambda model: model["move"]["axes"][2]["babystep"] == pytest.approx(0),
     ),
     (
+        "tool_offsets",
+        {"tool": 0, "offsets": {"Y": -0.25}},
+        ["G10 P0 Y-0.25"],
+        None,
+        lambda model: model["tools"][0]["offsets"][1] == pytest.approx(-0.25),
+    ),
+    (
+        "tool_offsets",
+        {"tool": 0, "offsets": {"Y": 0}},
+        ["G10 P0 Y0"],
+        None,
+        lambda model: model["tools"][0]["offsets"][1] == pytest.approx(0),
+    ),
+    (
         "speed_factor",
         {"percent": 120},
         ["M220 S120"],

@@ -28,15 +28,16 @@ VALID = {
     "extrude": {"amounts": 1, "speed": 600},
     "filament": {"action": "unload"},
     "select_tool": {"tool": 0},
+    "tool_offsets": {"tool": 0, "offsets": {"X": 0}},
     "job": {"action": "start", "path": "square.gcode"},
     "recover": {},
 }
 
 NOT_WHILE_PRINTING = {
     *("home", "macro", "mesh", "power", "job", "jog", "extrude", "filament", "select_tool"),
-    "recover",
+    *("tool_offsets", "recover"),
 }
-WHILE_PAUSED = {"jog", "extrude", "filament", "select_tool"}
+WHILE_PAUSED = {"jog", "extrude", "filament", "select_tool", "tool_offsets"}
 
 MOVES = "\n".join(f"G1 X{20 + n % 100} Y{20 + n // 100} F600" for n in range(4000)) + "\n"
 

@@ -65,6 +65,12 @@ def codes(server):
     return [warning["code"] for warning in helpers.status(server)["warnings"]]
 
 
+def pause(server):
+    """Return the warning that says why the print is paused, ``None`` where there is none."""
+    found = helpers.status(server)["warnings"]
+    return next((warning for warning in found if warning["code"] == "print_paused"), None)
+
+
 def resume(server, **request):
     return server.post("/api/job", json={"command": "pause", "action": "resume", **request})
 
@@ -83,6 +89,9 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         server.wait_state("Paused", PAUSE_SECONDS + 15)
         assert code in codes(server)
         (notice,) = paused(push)
+        told = pause(server)
+        assert told["values"]["next"] == "wait"
+        assert code in [cause["code"] for cause in told["causes"]]
         assert len(push.events("PrintPaused")) == 1
 
         # however it is said
@@ -95,8 +104,13 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
 
         board.board.clear(fault.partition(":")[0])
         server.wait_for(lambda: code not in codes(server), 10, "the end of the fault")
+        # why it was paused is told as long as it is
+        told = pause(server)
+        assert told["values"]["next"] == "resume"
+        assert code in [cause["code"] for cause in told["causes"]]
         assert resume(server).status_code == 204
         server.wait_state("Printing")
+        assert pause(server) is None
         time.sleep(3)
         assert server.state() == "Printing"
         assert len(push.events("PrintPaused")) == 1
@@ -133,8 +147,10 @@ def test_reset_can_only_be_cancelled(server, printing):
     response = resume(server)
     assert response.status_code == 409
     assert "cancel" in response.json()["error"]
+    assert pause(server)["values"]["next"] == "cancel"
     cancel(server)
     server.wait_for(lambda: "reset" not in codes(server), 10, "the end of the warning")
+    assert pause(server) is None
     server.select_and_print("long.gcode")
     server.wait_state("Printing")
 

@@ -111,6 +111,11 @@ def test_streamed(server, connected):
             server.wait_state("Paused", 20)
             # nothing goes out behind the place
             assert dwells(board) == [f"G4 P{before}" for before in range(number + 1)]
+            if stop == BLOCKING_BOX:
+                told = server.wait_for(lambda: paused(server), 5, "the warning")[0]
+                assert told["values"] == {"next": "answer", "message": "Is it S1 there?"}
+            else:
+                server.wait_for(lambda: not paused(server), 5, "the end of the warning")
             resume(server)
         server.wait_state("Operational", 20)
         assert len(push.events("PrintPaused")) == len(stops)
@@ -129,6 +134,12 @@ def test_box_that_can_be_answered_goes_out_in_a_print(server, connected):
     server.wait_for(lambda: dwells(board) == ["G4 P1", "G4 P2"], 20, "the lines of the file")
     assert BLOCKING_BOX in helpers.commands(board)
     server.wait_state("Operational", 20)
+
+
+def paused(server):
+    """Return the warnings that say why the print is paused."""
+    found = helpers.status(server)["warnings"]
+    return [warning for warning in found if warning["code"] == "print_paused"]
 
 
 def box_warning(server):

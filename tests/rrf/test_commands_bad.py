@@ -128,6 +128,28 @@ TABLE = [
     ("speed_factor", {"percent": 1001}, "cartesian", {}, "out_of_range"),
     ("extrusion_factor", {"extruder": 1, "percent": 95}, "cartesian", {}, "no_such_extruder"),
     ("extrusion_factor", {"extruder": 0, "percent": 0}, "cartesian", {}, "out_of_range"),
+    # spindles and tools
+    ("spindle", {"spindle": 0, "rpm": 59}, "cnc", {}, "out_of_range"),
+    ("spindle", {"spindle": 0, "rpm": 24_001}, "cnc", {}, "out_of_range"),
+    ("spindle", {"spindle": 0, "rpm": -1}, "cnc", {}, "out_of_range"),
+    ("spindle", {"spindle": 0, "rpm": "60"}, "cnc", {}, "not_a_number"),
+    ("spindle", {"spindle": 0}, "cnc", {}, "missing_parameter"),
+    # the others are unconfigured
+    ("spindle", {"spindle": 1, "rpm": 100}, "cnc", {}, "no_such_spindle"),
+    ("spindle", {"spindle": 0, "rpm": 100}, "cartesian", {}, "no_such_spindle"),
+    ("spindle", {"spindle": 0, "rpm": 100, "direction": "back"}, "cnc", {}, "wrong_word"),
+    (
+        "spindle",
+        {"spindle": 0, "rpm": 100, "direction": "reverse"},
+        "cnc",
+        {"spindles[0].canReverse": False},
+        "cannot_reverse",
+    ),
+    ("tool_offsets", {"tool": 1, "offsets": {"X": 1}}, "cartesian", {}, "no_such_tool"),
+    ("tool_offsets", {"tool": 0, "offsets": {"U": 1}}, "cartesian", {}, "no_such_axis"),
+    ("tool_offsets", {"tool": 0, "offsets": {}}, "cartesian", {}, "not_moves"),
+    ("tool_offsets", {"tool": 0, "offsets": {"X": 10_001}}, "cartesian", {}, "out_of_range"),
+    ("tool_offsets", {"tool": 0, "offsets": {"X": "1"}}, "cartesian", {}, "not_a_number"),
     # message boxes
     ("message_box", {"action": "close"}, "cartesian", box(2), "wrong_word"),
     ("message_box", {"action": "ok", "seq": -1}, "cartesian", box(2), "out_of_range"),

@@ -23,6 +23,8 @@ VALID = {
     "babystep": {"amount": 0.1},
     "speed_factor": {"percent": 100},
     "extrusion_factor": {"extruder": 0, "percent": 100},
+    "spindle": {"spindle": 0, "rpm": 1000},
+    "tool_offsets": {"tool": 0, "offsets": {"X": 1}},
     "message_box": {"action": "ok"},
     "macro": {"path": "a.g"},
     "object": {"index": 0, "action": "cancel"},
@@ -47,13 +49,21 @@ NOT_WHILE_PRINTING = {
     "job",
     "power",
     "recover",
+    "spindle",
+    "tool_offsets",
 }
-WHILE_PAUSED = {"jog", "extrude", "select_tool", "filament", "recover"}
+WHILE_PAUSED = {"spindle", "tool_offsets", "jog", "extrude", "select_tool", "filament", "recover"}
 
 
 def always_ready(**members):
     """Return a machine on which each command of ``VALID`` goes."""
-    ready = {**box(2), "job.build": {"objects": [{}]}, "heat.chamberHeaters": [0]}
+    ready = {
+        **box(2),
+        "job.build": {"objects": [{}]},
+        "heat.chamberHeaters": [0],
+        "state.machineMode": "CNC",
+        "spindles[0].state": "stopped",
+    }
     return on(**{**ready, **members})
 
 
@@ -170,6 +180,13 @@ TABLE = [
     ("job", {"action": "resume"}, {}, FREE, "not_paused"),
     ("job", {"action": "resume"}, {"state.status": "processing"}, FREE, "not_paused"),
     ("job", {"action": "cancel"}, {}, FREE, "no_job"),
+    (
+        "spindle",
+        {"spindle": 0, "rpm": 100},
+        {"spindles[0].state": "stopped"},
+        FREE,
+        "not_cnc",
+    ),
     ("power", {"on": True}, {"state.atxPower": None}, FREE, "no_power_control"),
     (
         "chamber",

@@ -25,6 +25,7 @@ def box(mode, **members):
 
 PRINTING = {"state.status": "processing"}
 OBJECTS = {"job.build": {"objects": [{"name": "a"}, {"name": "b"}]}}
+CNC = {"state.machineMode": "CNC"}
 LOADED = {"move.extruders[0].filament": "PLA"}
 
 TABLE = [
@@ -156,6 +157,33 @@ TABLE = [
         {},
         ["M221 D3 S95.5"],
     ),
+    ("spindle", {"spindle": 0, "rpm": 12000.4}, "cnc", VERSIONS, CNC, ["M3 P0 S12000"]),
+    (
+        "spindle",
+        {"spindle": 0, "rpm": 60, "direction": "reverse"},
+        "cnc",
+        FROM_33,
+        {},
+        ["M4 P0 S60"],
+    ),
+    ("spindle", {"spindle": 0, "rpm": 0}, "cnc", VERSIONS, CNC, ["M5 P0"]),
+    (
+        "spindle",
+        {"spindle": 1, "rpm": 500},
+        "cnc",
+        FROM_33,
+        {"spindles[1]": {"state": "stopped", "canReverse": False}},
+        ["M3 P1 S500"],
+    ),
+    (
+        "tool_offsets",
+        {"tool": 10, "offsets": {"X": 0.25, "Z": -3}},
+        CHANGER,
+        VERSIONS,
+        {},
+        ["G10 P10 X0.25 Z-3"],
+    ),
+    ("tool_offsets", {"tool": 0, "offsets": {"a": 1}}, "manyaxes", FROM_33, {}, ["G10 P0 'a1"]),
     ("message_box", {"action": "ok"}, "cartesian", TO_34, box(2), ["M292 P0"]),
     ("message_box", {"action": "cancel", "seq": 7}, "cartesian", TO_34, box(3), ["M292 P1"]),
     ("message_box", {"action": "ok"}, "cartesian", FROM_35, box(1), ["M292 P0 S7"]),

@@ -196,6 +196,30 @@ def test_m290_reports(bench):
     assert bench().send("M290") == expected
 
 
+SPINDLES = {
+    "forward": ("M3 P0 S12000", ("forward", 12000, 12000)),
+    "reverse": ("M4 P0 S500", ("reverse", 500, 500)),
+    "within its limits": ("M3 P0 S50000", ("forward", 50000, 24000)),
+    "stopped": ("M3 P0 S100\nM5 P0", ("stopped", 100, 0)),
+    "all stopped": ("M3 P0 S100\nM5", ("stopped", 100, 0)),
+    "goes on": ("M3 P0 S100\nM5 P0\nM3 P0", ("forward", 100, 100)),
+}
+
+
+@pytest.mark.parametrize(("lines", "expected"), SPINDLES.values(), ids=SPINDLES)
+def test_spindle(bench, lines, expected):
+    board = bench("cnc")
+    for line in lines.splitlines():
+        assert board.send(line) == "ok\n"
+    spindle = board.ask("spindles[0]")
+    assert (spindle["state"], spindle["active"], spindle["current"]) == expected
+
+
+def test_spindle_needs_a_number_or_a_tool(bench):
+    reply = bench("cnc").send("M3 S100")
+    assert reply == "Error: M3: No P parameter and no active tool with spindle\nok\n"
+
+
 def test_workplace_and_tool_offsets(bench):
     board = bench("toolchanger").homed()
     board.send("G10 L2 P2 X100", "G55")
@@ -293,20 +317,6 @@ def test_coordinates_alone_continue_on_a_router(bench):
     board = bench("cnc").homed()
     board.done("G1 X10 F6000", "X20 Y5", "M400")
     assert positions(board)[:2] == [20, 5]
-
-
-@pytest.mark.parametrize(
-    ("line", "state"), [("M3 S12000", "forward"), ("M4 S500", "reverse"), ("M5", "stopped")]
-)
-def test_spindle(bench, line, state):
-    board = bench("cnc")
-    board.send(line)
-    assert board.ask("spindles[0].state") == state
-    assert board.ask("spindles[0].current") == (0 if line == "M5" else int(line.split("S")[1]))
-
-
-def test_no_spindle(bench):
-    assert bench().send("M3 S100") == "Error: M3: No spindle configured\nok\n"
 
 
 def test_time_goes_on(bench):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..gcode import axis_word, extrude_line, jog_line, number
-from ..machine import Machine, mapping
+from ..machine import Machine, array, mapping
 from . import things
 from .outcome import Request, bad, forbidden
-from .parameters import is_number
+from .parameters import HUGE, is_number, number_or, within
 
 CLAMPED = 1.0
 """Millimetres to which the firmware cuts a relative baby step without a word (3.5
@@ -73,6 +73,39 @@ def extrude(request: Request) -> Sequence[str]:
         if machine.is_cold(tool, retracts=all(amount <= 0 for amount in several)):
             raise forbidden("too_cold", tool=str(tool["number"]))
     return [extrude_line(several, request.values["speed"])]
+
+
+CNC = "CNC"
+"""``state.machineMode`` in which spindles turn; set with M453."""
+
+
+def spindle(request: Request) -> Sequence[str]:
+    """M3, M4, M5.
+
+    Beyond its limits the firmware takes the nearest speed that the spindle has (3.5 Spindle.cpp,
+    SetRpm), which may be far from what was asked for.
+    """
+    machine, values = request.machine, request.values
+    if mapping(machine.model.get("state")).get("machineMode") != CNC:
+        raise forbidden("not_cnc")
+    place, rpm = values["spindle"], values["rpm"]
+    spindles = array(machine.model.get("spindles"))
+    known = mapping(spindles[place]) if place < len(spindles) else {}
+    if rpm:
+        within("rpm", rpm, number_or(known.get("min"), 0), number_or(known.get("max"), HUGE))
+    turns_back = values["direction"] == "reverse"
+    if turns_back and known.get("canReverse") is False:
+        raise bad("cannot_reverse", spindle=str(place))
+    if not rpm:
+        return [f"M5 P{place}"]
+    return [f"{'M4' if turns_back else 'M3'} P{place} S{round(rpm)}"]
+
+
+def tool_offsets(request: Request) -> Sequence[str]:
+    """G10; the other axes keep theirs."""
+    values = request.values
+    words = [axis_word(letter, number(place)) for letter, place in values["offsets"].items()]
+    return [f"G10 P{values['tool']} {' '.join(words)}"]
 
 
 def babystep(request: Request) -> Sequence[str]:

@@ -25,6 +25,7 @@ MOST_PERCENT = 1000.0
 """More of these is a mistake: the firmware has no limits, or cuts without a word."""
 
 MOST_BABYSTEP = 10.0
+MOST_RPM = 1_000_000
 
 FILAMENT_BYTES = 31
 """Longest name of a filament (3.5 Filament.h)."""
@@ -46,7 +47,7 @@ class Command(NamedTuple):
 
 
 TEMPERATURE = parameters.number()
-PERCENT = parameters.number(1, MOST_PERCENT)
+PERCENT = Parameter("percent", parameters.number(1, MOST_PERCENT))
 SPEED = parameters.number(1, MOST_SPEED)
 
 
@@ -158,19 +159,31 @@ COMMANDS = (
         motion.babystep,
         "3.5 GCodes2.cpp (M290); axes and R0 since 2.02",
     ),
-    Command(
-        "speed_factor",
-        (Parameter("percent", PERCENT),),
-        (),
-        motion.speed_factor,
-        "3.5 GCodes2.cpp (M220)",
-    ),
+    Command("speed_factor", (PERCENT,), (), motion.speed_factor, "3.5 GCodes2.cpp (M220)"),
     Command(
         "extrusion_factor",
-        (Parameter("extruder", things.extruder), Parameter("percent", PERCENT)),
+        (Parameter("extruder", things.extruder), PERCENT),
         (),
         motion.extrusion_factor,
         "3.5 GCodes2.cpp (M221)",
+    ),
+    Command(
+        "spindle",
+        (
+            Parameter("spindle", things.spindle),
+            Parameter("rpm", parameters.number(0, MOST_RPM)),
+            _optional("direction", parameters.word("forward", "reverse"), "forward"),
+        ),
+        (PRINTING,),
+        motion.spindle,
+        "3.5 GCodes2.cpp (M3, M4, M5): S is a whole number",
+    ),
+    Command(
+        "tool_offsets",
+        (Parameter("tool", things.tool), Parameter("offsets", things.moves)),
+        (PRINTING,),
+        motion.tool_offsets,
+        "3.5 GCodes2.cpp, SetOrReportOffsets (G10 P)",
     ),
     Command(
         "message_box",

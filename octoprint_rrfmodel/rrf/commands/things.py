@@ -62,6 +62,18 @@ def _there(*path: str) -> Numbers:
     return numbers
 
 
+def _spindles(machine: Machine) -> Sequence[int] | None:
+    spindles = machine.model.get("spindles")
+    if not isinstance(spindles, list):
+        return None
+    # without M409 only those that are there are told, without a state
+    return [
+        number
+        for number, spindle in enumerate(spindles)
+        if isinstance(spindle, Mapping) and spindle.get("state") != "unconfigured"
+    ]
+
+
 def _tools(machine: Machine) -> Sequence[int] | None:
     return sorted(machine.tools) if machine.knows_tools else None
 
@@ -83,6 +95,7 @@ tool_or_none = _one_of("tool", _tools, least=-1)
 heater = _one_of("heater", _there("heat", "heaters"))
 fan = _one_of("fan", _there("fans"))
 extruder = _one_of("extruder", _there("move", "extruders"))
+spindle = _one_of("spindle", _spindles)
 bed = _one_of("bed", _slots("bedHeaters"))
 chamber = _one_of("chamber", _slots("chamberHeaters"))
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..alerts import DRIVER_ERRORS
+from ..board_alerts import DRIVER_ERRORS, OPEN_LOAD, OVER_TEMPERATURE_WARNING
 from ..machine import array
 from ..words import BOARDS
 from .metric import GAUGE, Metric, Model, Sample, Sources, at, each, indexed, infos, reading, states
 
 DRIVER_CONDITIONS = (
     ("error", DRIVER_ERRORS),
-    ("over_temperature_warning", 1 << 0),
-    ("open_load", 1 << 6 | 1 << 7),
+    ("over_temperature_warning", OVER_TEMPERATURE_WARNING),
+    ("open_load", OPEN_LOAD),
     ("stall", 1 << 8),
 )
 """What bits of ``boards[].drivers[].status`` say (Duet3D CANlib, StandardDriverStatus)."""
