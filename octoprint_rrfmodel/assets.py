@@ -8,6 +8,7 @@ SCRIPTS = (
     "history",
     "tree",
     # regions of the page, each on its own
+    "notifications",
     "sidebar",
     "machine",
     "machine_parts",
@@ -15,7 +16,6 @@ SCRIPTS = (
     "chart",
     "model",
     "box",
-    "notifications",
     "settings",
     "wizard",
 )

@@ -35,7 +35,8 @@ def type_number(field, number):
 
 def board_value(board, key):
     """Return the value that the board itself has for a key, ``None`` while it has no time."""
-    said = board.board.execute(f'M409 K"{key}" F"vnd99"', channel="http").splitlines()
+    # a channel of its own: that of a test's commands may be busy
+    said = board.board.execute(f'M409 K"{key}" F"vnd99"', channel="telnet").splitlines()
     replies = [line for line in said if line.startswith("{")]
     return json.loads(replies[-1])["result"] if replies else None
 

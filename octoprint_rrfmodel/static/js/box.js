@@ -1,1 +1,216 @@
-/* Message boxes of the machine (M291). */
+/* Message boxes of the machine (M291): one dialog on every open page, as long as the box is open. */
+$(function () {
+    const CLOSE = 1;
+    const CANCELLABLE = 3;
+    const CHOICES = 4;
+    const INTEGER = 5;
+    const NUMBER = 6;
+    const TEXT = 7;
+    const JOG_STEPS = [-10, -1, -0.1, 0.1, 1, 10];
+
+    function RrfModelBoxViewModel(parameters) {
+        const self = this;
+        const core = parameters[0];
+
+        self.mayControl = core.mayControl;
+        self.value = ko.observable("");
+        self.error = ko.observable("");
+        self.isSending = ko.observable(false);
+        self.secondsLeft = ko.observable(0);
+
+        /** The box as the model has it, `null` where none is open. */
+        self.box = ko.pureComputed(function () {
+            const box = core.isRrf() && (core.model("state") || {}).messageBox;
+            return box && typeof box.mode === "number" ? box : null;
+        });
+
+        const member = (name, otherwise) =>
+            ko.pureComputed(function () {
+                const box = self.box();
+                return box && box[name] !== undefined && box[name] !== null ? box[name] : otherwise;
+            });
+        self.title = ko.pureComputed(() => member("title", "")() || gettext("Message"));
+        self.message = member("message", "");
+        self.mode = member("mode", -1);
+        self.min = member("min", null);
+        self.max = member("max", null);
+        const seq = member("seq", null);
+
+        // the firmware lacks a way, or the user the right to go it
+        self.isUnanswerable = ko.pureComputed(() =>
+            (core.status().warnings || []).some((w) => w.code === "message_box_unanswerable")
+        );
+        self.mayAnswer = ko.pureComputed(
+            () => core.mayControl() && !self.isUnanswerable() && !self.isSending()
+        );
+
+        self.choices = ko.pureComputed(() =>
+            self.mode() === CHOICES
+                ? (member("choices", [])() || []).map((text, index) => ({
+                      text: text,
+                      isDefault: index === member("default", -1)(),
+                      pick: () => answer("ok", index)
+                  }))
+                : []
+        );
+        self.wantsValue = ko.pureComputed(() => self.mode() >= INTEGER);
+        self.inputType = ko.pureComputed(() => (self.mode() === TEXT ? "text" : "number"));
+        self.step = ko.pureComputed(() => (self.mode() === INTEGER ? 1 : "any"));
+        self.hasOk = ko.pureComputed(() => self.mode() >= CLOSE && self.mode() !== CHOICES);
+        self.okText = ko.pureComputed(() =>
+            self.mode() === CLOSE ? gettext("Close") : gettext("OK")
+        );
+        self.canCancel = ko.pureComputed(
+            () => self.mode() === CANCELLABLE || !!member("cancelButton", false)()
+        );
+
+        /** Axes that the box offers to move: bits in the order of the machine's axes. */
+        self.axes = ko.pureComputed(function () {
+            const controls = member("axisControls", 0)();
+            return ((core.model("move") || {}).axes || [])
+                .filter((axis, index) => axis && controls & (1 << index))
+                .map((axis) => ({
+                    letter: axis.letter,
+                    steps: JOG_STEPS.map((step) => ({
+                        text: (step > 0 ? "+" : "") + step,
+                        label: _.sprintf(gettext("Move %(axis)s by %(step)s mm"), {
+                            axis: axis.letter,
+                            step: step
+                        }),
+                        jog: () => core.command("jog", {axes: {[axis.letter]: step}})
+                    }))
+                }));
+        });
+        self.positions = ko.pureComputed(() =>
+            ((core.model("move") || {}).axes || [])
+                .filter((axis) => axis && member("axisControls", 0)() && axis.letter)
+                .map((axis) => axis.letter + " " + RRFModel.show.fixed(axis.userPosition, 2))
+                .join("  ")
+        );
+
+        self.limitText = ko.pureComputed(function () {
+            if (!self.wantsValue()) return "";
+            const values = {min: self.min(), max: self.max()};
+            const hasMin = values.min !== null;
+            const hasMax = values.max !== null;
+            const isText = self.mode() === TEXT;
+            if (hasMin && hasMax)
+                return _.sprintf(
+                    isText
+                        ? gettext("From %(min)s to %(max)s characters")
+                        : gettext("From %(min)s to %(max)s"),
+                    values
+                );
+            if (hasMin)
+                return _.sprintf(
+                    isText ? gettext("At least %(min)s characters") : gettext("At least %(min)s"),
+                    values
+                );
+            if (hasMax)
+                return _.sprintf(
+                    isText ? gettext("At most %(max)s characters") : gettext("At most %(max)s"),
+                    values
+                );
+            return "";
+        });
+
+        const fits = (size) =>
+            (self.min() === null || size >= self.min()) &&
+            (self.max() === null || size <= self.max());
+
+        /** What was typed as the value to send; undefined where it isn't one. */
+        const typed = function () {
+            const text = String(self.value());
+            if (self.mode() === TEXT) return fits(text.length) ? text : undefined;
+            const number = Number(text.replace(",", "."));
+            const isOne =
+                text.trim() !== "" &&
+                Number.isFinite(number) &&
+                (self.mode() === NUMBER || Number.isInteger(number)) &&
+                fits(number);
+            return isOne ? number : undefined;
+        };
+
+        const answer = function (action, value) {
+            if (!self.mayAnswer()) return;
+            const values = {action: action};
+            if (value !== undefined) values.value = value;
+            // older firmware doesn't count its boxes
+            if (seq() !== null) values.seq = seq();
+            self.isSending(true);
+            core.command("message_box", values).always(() => self.isSending(false));
+        };
+
+        self.ok = function () {
+            if (!self.hasOk() || !self.mayAnswer()) return;
+            const value = self.wantsValue() ? typed() : undefined;
+            if (self.wantsValue() && value === undefined) {
+                self.error(
+                    [gettext("That is not a value that the machine takes."), self.limitText()]
+                        .filter(Boolean)
+                        .join(" ")
+                );
+                return;
+            }
+            answer("ok", value);
+        };
+        self.cancel = () => self.canCancel() && answer("cancel");
+
+        self.timeText = ko.pureComputed(() =>
+            self.secondsLeft() > 0
+                ? _.sprintf(gettext("Closes by itself in %(seconds)s s"), {
+                      seconds: self.secondsLeft()
+                  })
+                : ""
+        );
+
+        //~~ opening and closing
+
+        let dialog;
+        let shown = null;
+        let closesAt = 0;
+
+        const keyOf = (box) => (box ? [box.seq, box.mode, box.title, box.message].join("|") : null);
+
+        const update = function (box) {
+            const key = keyOf(box);
+            if (key === shown) return;
+            const wasOpen = shown !== null;
+            shown = key;
+            self.error("");
+            self.isSending(false);
+            if (!box) {
+                if (wasOpen) dialog.modal("hide");
+                return;
+            }
+            self.value(box.default !== undefined && box.default !== null ? String(box.default) : "");
+            closesAt = box.timeout > 0 ? Date.now() + box.timeout * 1000 : 0;
+            tick();
+            if (!wasOpen) dialog.modal({backdrop: "static", keyboard: false});
+        };
+
+        const tick = () =>
+            self.secondsLeft(closesAt ? Math.max(0, Math.ceil((closesAt - Date.now()) / 1000)) : 0);
+
+        self.onKey = function (_self, event) {
+            if (event.key === "Escape") self.cancel();
+            return true;
+        };
+
+        self.onAllBound = function () {
+            dialog = $("#rrfmodel_box_dialog");
+            dialog.on("shown", function () {
+                dialog.find("input:visible, .modal-footer button:visible").first().focus();
+            });
+            self.box.subscribe(update);
+            update(self.box());
+            window.setInterval(() => shown !== null && tick(), 1000);
+        };
+    }
+
+    OCTOPRINT_VIEWMODELS.push({
+        construct: RrfModelBoxViewModel,
+        dependencies: ["rrfModelViewModel"],
+        elements: ["#rrfmodel_box"]
+    });
+});

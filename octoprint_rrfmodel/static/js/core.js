@@ -171,7 +171,7 @@ $(function () {
         self.onDataUpdaterPluginMessage = function (plugin, message) {
             if (plugin !== "rrfmodel" || !self.mayRead()) return;
             if (message.type === "notice") {
-                self.notify(message.text);
+                self.notify(RRFModel.words.notice[message.code] || message.text);
                 return;
             }
             if (message.type === "reset") replace({});

@@ -8,38 +8,13 @@ $(function () {
 
     let words;
 
-    /** A warning about one of several things: code, and numbers with underscores between. */
-    const NUMBERED = /^(heater_fault|filament_error|driver_error)_([\d_]+)$/;
-
-    /** The command that mends what a warning is about; asks for one permission each. */
-    const NEEDED_FOR = {
-        recover: "PLUGIN_RRFMODEL_CONTROL",
-        fix_settings: "SETTINGS",
-        fix_profile: "SETTINGS"
-    };
-
-    /** The plugin's own words in the page's language for a warning of the server. */
-    function warningText(warning) {
-        const numbered = NUMBERED.exec(warning.code);
-        if (numbered) {
-            return _.sprintf(words.numbered[numbered[1]], {
-                number: numbered[2].replace("_", ".")
-            });
-        }
-        return words.warning[warning.code] || warning.text;
-    }
-
-    /** Whether a warning is about the machine; the others are advice, and can wait. */
-    function isFault(warning) {
-        return !warning.fix || warning.fix === "recover";
-    }
-
     const show = RRFModel.show;
 
     /** @returns {HeaterRow} */
     function heaterRow(name, heater) {
         const state = words.heater[heater.state] || {text: heater.state || "", label: ""};
         return {
+            key: name,
             name: name,
             current: show.degrees(heater.current),
             active: show.target(heater.active),
@@ -87,6 +62,7 @@ $(function () {
             .map(function (axis) {
                 const position = axis.machinePosition;
                 return {
+                    key: axis.letter,
                     letter: axis.letter,
                     position: typeof position === "number" ? position.toFixed(2) : "–",
                     homed: !!axis.homed,
@@ -99,11 +75,11 @@ $(function () {
         const self = this;
 
         const core = parameters[0];
+        const notifications = parameters[1];
         words = RRFModel.words;
 
         self.status = core.status;
         self.now = ko.observable(Date.now());
-        self.told = {};
 
         self.mayRead = core.mayRead;
 
@@ -116,6 +92,14 @@ $(function () {
         }));
 
         self.isShown = core.isRrf;
+
+        /** Whether a row is wanted; every one can be folded away in the settings. */
+        self.wants = function (row) {
+            const plugins = (core.settings.settings || {}).plugins;
+            const rows = plugins && plugins.rrfmodel && plugins.rrfmodel.sidebar;
+            // who may not read settings has all of them
+            return !rows || !rows[row] || ko.unwrap(rows[row]);
+        };
 
         self.state = ko.pureComputed(function () {
             return self.model().state || {};
@@ -136,12 +120,44 @@ $(function () {
             return tool && tool.name ? number + " (" + tool.name + ")" : String(number);
         });
 
-        self.heaters = ko.pureComputed(function () {
-            return heaterRows(self.model());
-        });
+        self.heaters = RRFModel.rows(() => heaterRows(self.model()));
+        self.axes = RRFModel.rows(() => axisMarks(self.model()));
 
-        self.axes = ko.pureComputed(function () {
-            return axisMarks(self.model());
+        self.message = ko.pureComputed(() => self.state().displayMessage || "");
+
+        self.fans = RRFModel.rows(() =>
+            (core.model("fans") || [])
+                .map((fan, index) => ({fan: fan, index: index}))
+                .filter((found) => !!found.fan)
+                .map((found) => ({
+                    key: found.index,
+                    name:
+                        found.fan.name ||
+                        _.sprintf(gettext("Fan %(number)s"), {number: found.index}),
+                    speed: show.percent(found.fan.actualValue),
+                    rpm: found.fan.rpm >= 0 ? found.fan.rpm + " " + gettext("rpm") : ""
+                }))
+        );
+
+        self.speedFactor = ko.pureComputed(() => show.percent((self.model().move || {}).speedFactor));
+        self.extrusionFactors = ko.pureComputed(() =>
+            ((self.model().move || {}).extruders || [])
+                .map((extruder) => show.percent((extruder || {}).factor))
+                .join(" / ")
+        );
+
+        const job = ko.pureComputed(() => core.model("job") || {});
+        self.layerText = ko.pureComputed(function () {
+            if (typeof job().layer !== "number") return "";
+            const layers = (job().file || {}).numLayers;
+            return layers ? job().layer + " / " + layers : String(job().layer);
+        });
+        self.leftText = ko.pureComputed(function () {
+            const left = job().timesLeft || {};
+            const known = [left.slicer, left.filament, left.file].find(
+                (seconds) => typeof seconds === "number"
+            );
+            return known === undefined ? "" : show.duration(known);
         });
 
         /** Warnings to show, those that one button mends grouped with it. */
@@ -149,32 +165,24 @@ $(function () {
             const rows = [];
             if (!self.mayRead()) return rows;
             (self.status().warnings || []).forEach(function (warning) {
-                const fix = self.mayFix(warning.fix) ? warning.fix : "";
+                const fix = notifications.mayFix(warning.fix) ? warning.fix : "";
                 const last = rows[rows.length - 1];
                 if (fix && last && last.fix === fix) {
-                    last.texts.push(warningText(warning));
+                    last.texts.push(RRFModel.warningText(warning));
                     return;
                 }
                 rows.push({
-                    texts: [warningText(warning)],
+                    texts: [RRFModel.warningText(warning)],
                     fix: fix,
                     fixText: words.fix[fix] || "",
-                    kind: isFault(warning) ? "warning" : "advice",
-                    labelClass: isFault(warning) ? "alert-error" : ""
+                    kind: warning.level === "advice" ? "advice" : "warning",
+                    labelClass: warning.level === "fault" ? "alert-error" : ""
                 });
             });
             return rows;
         });
 
-        self.mayFix = function (fix) {
-            const permission = NEEDED_FOR[fix];
-            return !!permission && core.may(permission);
-        };
-
-        self.fix = function (row) {
-            if (!self.mayFix(row.fix)) return;
-            core.command(row.fix);
-        };
+        self.fix = (row) => notifications.fix(row);
 
         self.firmwareText = ko.pureComputed(function () {
             const firmware = self.status().firmware;
@@ -205,49 +213,6 @@ $(function () {
         });
 
         core.received.subscribe(() => self.now(Date.now()));
-        core.status.subscribe((status) => self.tell(status.warnings || []));
-
-        /** Tell each warning once; it may be told again when its cause was gone in between. */
-        self.tell = function (warnings) {
-            const told = {};
-            warnings.filter(isFault).forEach(function (warning) {
-                told[warning.code] =
-                    self.told[warning.code] ||
-                    new PNotify({
-                        title: gettext("RepRapFirmware"),
-                        text: warningText(warning),
-                        title_escape: true,
-                        text_escape: true,
-                        type: "error",
-                        hide: false,
-                        confirm: self.confirmation(warning)
-                    });
-            });
-            Object.keys(self.told).forEach(function (code) {
-                if (!told[code]) self.told[code].remove();
-            });
-            self.told = told;
-        };
-
-        /** The part of a notification that has the button, for those who may press it. */
-        self.confirmation = function (warning) {
-            if (!self.mayFix(warning.fix)) return {};
-            const later = {
-                text: gettext("Later"),
-                click: function (notice) {
-                    notice.remove();
-                }
-            };
-            const now = {
-                text: words.fix[warning.fix],
-                addClass: "btn-primary",
-                click: function (notice) {
-                    notice.remove();
-                    self.fix(warning);
-                }
-            };
-            return {confirm: true, buttons: [later, now]};
-        };
 
         window.setInterval(function () {
             if (self.isShown() && !document.hidden) self.now(Date.now());
@@ -256,7 +221,7 @@ $(function () {
 
     OCTOPRINT_VIEWMODELS.push({
         construct: RrfModelSidebarViewModel,
-        dependencies: ["rrfModelViewModel"],
+        dependencies: ["rrfModelViewModel", "rrfModelNotificationsViewModel"],
         elements: ["#sidebar_plugin_rrfmodel"]
     });
 });

@@ -69,9 +69,10 @@ $(function () {
             ),
             profile_reconnect: gettext(
                 "Disconnect the printer and connect it again: OctoPrint still uses the old number of extruders."
-            )
-        },
-        numbered: {
+            ),
+            mqtt_topic: gettext(
+                "Nothing is published over MQTT: the topic in the plugin's settings is empty, too long, or has one of the characters + and # in it."
+            ),
             heater_fault: gettext(
                 "Heater %(number)s reports a fault. Find the cause, then reset it with M562."
             ),
@@ -80,7 +81,44 @@ $(function () {
             ),
             driver_error: gettext(
                 "Motor driver %(number)s reports an error. Find the cause."
+            ),
+            startup_error: gettext(
+                "Line %(line)s of %(file)s failed when the machine started: %(message)s"
+            ),
+            filament_monitor_mode: gettext(
+                "The filament monitor of extruder %(number)s acts only on what the machine prints from its own card. Give it S2 in its M591 in config.g, so that it acts on OctoPrint's prints too."
+            ),
+            supply_voltage: gettext(
+                "The supply of board %(number)s has fallen below 10 V. Check its power supply and fuses."
+            ),
+            driver_warning: gettext(
+                "Motor driver %(number)s is getting too hot. Cool it, or lower the motor's current."
+            ),
+            open_load: gettext(
+                "Motor driver %(number)s reports that its motor may not be connected. Check its cable."
+            ),
+            mcu_temperature: gettext(
+                "The processor of board %(number)s is hotter than 85 °C. Cool the board."
+            ),
+            versions_differ: gettext(
+                "Board %(number)s runs firmware %(version)s and the main board %(main)s. Update them to the same version."
             )
+        },
+        /** Why OctoPrint's print is paused, by what to do next. */
+        paused: {
+            wait: gettext("The print was paused. %(why)s Then resume the print, or cancel it."),
+            resume: gettext(
+                "The print was paused. %(why)s That is over now: resume the print, or cancel it."
+            ),
+            cancel: gettext("The print was paused and can only be cancelled. %(why)s"),
+            answer: gettext("The print was paused. %(why)s")
+        },
+        waiting: gettext(
+            'A message waits for an answer: "%(text)s". Do what it says, then resume the print, or cancel it.'
+        ),
+        /** Notices in the page's words; others have the server's text. */
+        notice: {
+            board_reset: gettext("The board was reset and has begun anew. Home it before it moves.")
         },
         /** What the button of a warning says, by the command that it sends. */
         fix: {
@@ -112,5 +150,20 @@ $(function () {
             const text = two(Math.floor(whole / 60) % 60) + ":" + two(whole % 60);
             return Math.floor(whole / 3600) + ":" + text;
         }
+    };
+
+    /** A warning of the server in the page's language. */
+    RRFModel.warningText = function (warning) {
+        const words = RRFModel.words;
+        const values = warning.values || {};
+        if (warning.code === "print_paused" && words.paused[values.next]) {
+            const why = values.message
+                ? _.sprintf(words.waiting, {text: values.message})
+                : (warning.causes || []).map(RRFModel.warningText).join(" ");
+            return _.sprintf(words.paused[values.next], {why: why});
+        }
+        // one of several things has its numbers behind the code
+        const text = words.warning[warning.code.replace(/(_\d+)+$/, "")];
+        return text ? _.sprintf(text, values) : warning.text;
     };
 });

@@ -1,0 +1,171 @@
+"""Message boxes on the page: each mode answered, closed elsewhere, for those who may only look."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.basedir import ADMIN, READER
+from tests.support.browser import open_octoprint
+
+from . import helpers
+from .page import board_value, own_errors, part, wait_text
+
+pytestmark = pytest.mark.timeout(240)
+
+MARKUP = "<img src=x onerror=alert(1)>"
+
+
+@pytest.fixture(scope="module")
+def board(module_board_factory):
+    return module_board_factory(machine="cartesian")
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory, board):
+    made = module_server_factory()
+    helpers.connect(made, board)
+    return made
+
+
+@pytest.fixture(autouse=True)
+def _no_box(board):
+    yield
+    while board_value(board, "state.messageBox") is not None:
+        board.board.execute("M292 P1", channel="telnet")
+
+
+@pytest.fixture
+def box(page, server):
+    open_octoprint(page, server, ADMIN)
+    return page.locator("#rrfmodel_box_dialog")
+
+
+def ask(board, parameters, channel="http"):
+    board.board.execute(f"M291 {parameters}", channel=channel)
+
+
+def is_closed(server, board, box):
+    expect(box).to_be_hidden(timeout=15_000)
+    server.wait_for(
+        lambda: board_value(board, "state.messageBox") is None, 10, "the board to close its box"
+    )
+    return True
+
+
+@pytest.mark.parametrize("mode", [1, 2, 3])
+def test_is_shown_and_closed(box, server, board, page_errors, mode):
+    ask(board, f'P"Is it {mode}?" R"Title" S{mode} T0')
+    wait_text(part(box, "box-message"), f"Is it {mode}?")
+    wait_text(part(box, "box-title"), "Title")
+    assert part(box, "box-cancel").is_visible() == (mode == 3)
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+    assert own_errors(page_errors) == []
+
+
+def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
+    ask(board, 'P"Wait" S0 T4')
+    wait_text(part(box, "box-message"), "Wait")
+    wait_text(part(box, "box-time"), "Closes by itself")
+    assert box.locator("button:visible").count() == 0
+    assert is_closed(server, board, box)
+
+
+def test_cancel_by_escape(page, box, server, board):
+    ask(board, 'P"Sure?" S3')
+    wait_text(part(box, "box-message"), "Sure?")
+    page.keyboard.press("Escape")
+    assert is_closed(server, board, box)
+
+
+def test_what_can_not_be_cancelled_stays(page, box, server, board):
+    ask(board, 'P"Read this" S2')
+    wait_text(part(box, "box-message"), "Read this")
+    page.keyboard.press("Escape")
+    helpers.wait_polls(server, 2)
+    assert box.is_visible()
+    assert board_value(board, "state.messageBox.mode") == 2
+
+
+def test_choices(box, server, board):
+    ask(board, 'P"Which?" S4 K{"one", "two", "three"} F1')
+    wait_text(part(box, "box-message"), "Which?")
+    choices = part(box, "box-choice")
+    assert choices.all_inner_texts() == ["one", "two", "three"]
+    expect(choices.nth(1)).to_have_class("btn btn-primary")
+    choices.nth(2).click()
+    assert is_closed(server, board, box)
+    assert any("R{2}" in line or "R2" in line for line in sent(server))
+
+
+def sent(server):
+    return [line for line in server.sent() if "M292" in line]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "wrong", "right", "goes_out"),
+    [
+        ('S5 L1 H9 F4', ["0", "10", "2.5", ""], "7", "7"),
+        ('S6 L0.5 H2.5 F1', ["0.4", "3", ""], "1.25", "1.25"),
+        ('S7 L2 H5 F"abc"', ["a", "abcdef"], "half", "half"),
+    ],
+    ids=["integer", "number", "text"],
+)
+def test_values_within_limits(box, server, board, parameters, wrong, right, goes_out):
+    ask(board, f'P"How much?" {parameters}')
+    wait_text(part(box, "box-message"), "How much?")
+    field = part(box, "box-value")
+    assert field.input_value() in ("4", "1", "abc")
+    before = len(sent(server))
+    for value in wrong:
+        field.fill(value)
+        part(box, "box-ok").click()
+        wait_text(part(box, "box-error"), "not a value")
+    assert len(sent(server)) == before
+    field.fill(right)
+    field.press("Enter")
+    assert is_closed(server, board, box)
+    assert goes_out in sent(server)[-1]
+
+
+def test_closes_when_answered_elsewhere_and_the_next_one_comes(box, server, board):
+    ask(board, 'P"First" S2')
+    ask(board, 'P"Second" S2', "aux")
+    wait_text(part(box, "box-message"), "First")
+    board.board.execute("M292", channel="telnet")
+    wait_text(part(box, "box-message"), "Second")
+    board.board.execute("M292", channel="telnet")
+    assert is_closed(server, board, box)
+
+
+def test_axes_are_moved(box, server, board):
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    ask(board, 'P"Jog" S2 Z1')
+    wait_text(part(box, "box-axis"), "Z")
+    before = board_value(board, "move.axes[2].machinePosition")
+    box.get_by_label("Move Z by 1 mm").click()
+    server.wait_for(
+        lambda: abs(board_value(board, "move.axes[2].machinePosition") - before - 1) < 0.01,
+        15,
+        "the move",
+    )
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+
+
+def test_who_may_not_control_sees_and_can_not_answer(page, server, board):
+    open_octoprint(page, server, READER)
+    box = page.locator("#rrfmodel_box_dialog")
+    ask(board, 'P"Look" S5 L1 H9')
+    wait_text(part(box, "box-message"), "Look")
+    wait_text(part(box, "box-readonly"), "not answer")
+    controls = box.locator("button:visible, input:visible")
+    assert {control.is_disabled() for control in controls.all()} == {True}
+
+
+def test_text_of_the_printer_is_text(box, server, board, page_errors):
+    ask(board, f'P"{MARKUP}" R"{MARKUP}" S4 K{{"{MARKUP}"}}')
+    wait_text(part(box, "box-message"), MARKUP)
+    wait_text(part(box, "box-choice"), MARKUP)
+    assert box.locator("img").count() == 0
+    assert own_errors(page_errors) == []
