@@ -164,8 +164,8 @@ def test_who_may_not_control_sees_and_can_not_answer(page, server, board):
 
 
 def test_text_of_the_printer_is_text(box, server, board, page_errors):
-    ask(board, f'P"{MARKUP}" R"{MARKUP}" S4 K{{"{MARKUP}"}}')
+    ask(board, f'P"{MARKUP}" R"{MARKUP}" S4 K{{"{MARKUP}", "b"}}')
     wait_text(part(box, "box-message"), MARKUP)
-    wait_text(part(box, "box-choice"), MARKUP)
+    wait_text(part(box, "box-choice").first, MARKUP)
     assert box.locator("img").count() == 0
     assert own_errors(page_errors) == []
