@@ -17,7 +17,6 @@ SCRIPTS = (
     "model",
     "box",
     "settings",
-    "wizard",
 )
 
 ASSETS = {

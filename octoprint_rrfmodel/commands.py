@@ -33,7 +33,7 @@ class PluginCommands:
     ``machine`` runs those to the machine; the others change what is OctoPrint's, and set it back.
     """
 
-    def __init__(self, machine, fix_settings, fix_profile, restore):
+    def __init__(self, machine, fix_settings, fix_profile, restore, wizard_done):
         def to_machine(name):
             return lambda parameters: machine.run(name, parameters)
 
@@ -41,7 +41,8 @@ class PluginCommands:
             **{row.name: Command(CONTROL, to_machine(row.name)) for row in COMMANDS},
             "fix_settings": Command("SETTINGS", lambda parameters: fix_settings()),
             "restore_settings": Command("SETTINGS", lambda parameters: restore()),
-            "fix_profile": Command("SETTINGS", lambda parameters: fix_profile()),
+            "fix_profile": Command("SETTINGS", fix_profile),
+            "wizard_done": Command("SETTINGS", wizard_done),
         }
 
     def names(self):

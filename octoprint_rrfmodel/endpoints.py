@@ -11,7 +11,8 @@ class Endpoints(BlueprintPlugin):
     """Hands each request to the part that answers it.
 
     The class that inherits it has ``_api`` (``api.ModelApi``), ``_history``
-    (``history.MachineHistory``) and ``_interfaces`` (``interfaces.Interfaces``).
+    (``history.MachineHistory``), ``_setup`` (``setup_page.Setup``) and ``_interfaces``
+    (``interfaces.Interfaces``).
     """
 
     def is_blueprint_protected(self):
@@ -35,6 +36,10 @@ class Endpoints(BlueprintPlugin):
     @BlueprintPlugin.route("/meanings", methods=["GET"])
     def get_meanings(self):
         return get_meanings()
+
+    @BlueprintPlugin.route("/setup", methods=["GET"])
+    def get_setup(self):
+        return self._setup.get_setup()
 
     @BlueprintPlugin.route("/metrics", methods=["GET"])
     def get_metrics(self):

@@ -111,6 +111,27 @@ class OctoPrintSettings:
         """Find out what is missing."""
         self.missing = tuple(need.code for need in NEEDS if self._lacks(need))
 
+    def table(self):
+        """Return each setting that matters: code, path, value now and wanted, and whether it fits.
+
+        Of a list only what has to be in it is told: codes that are missing now, and all wanted.
+        """
+        rows = []
+        for need in NEEDS:
+            value = self._settings().global_get(need.path)
+            lacking = [code for code in need.codes if code not in (value or ())]
+            rows.append(
+                {
+                    "code": need.code,
+                    "setting": ".".join(need.path),
+                    "now": list(value or ()) if need.codes else value,
+                    "wanted": list(need.codes) if need.codes else need.value,
+                    "missing": lacking,
+                    "fulfilled": not self._lacks(need),
+                }
+            )
+        return rows
+
     def fix(self):
         """Set what is missing and write down what was changed."""
         with self._lock:

@@ -54,6 +54,7 @@ class Parts:
             self._notice,
             lambda: self._card.end_job(),
             lambda key: self.worker.notify("look", key),
+            lambda: self._follower.ready,
             clock,
         )
         self.worker = Worker(
@@ -115,6 +116,7 @@ class Parts:
             self._follower,
             lambda: host.printer().is_operational(),
             lambda: [*self.protection.advice(), *self.neighbours.warnings()],
+            self.protection.setup.is_first_run,
             clock,
         )
         self.interfaces = Interfaces(

@@ -43,6 +43,7 @@ class RrfModelPlugin(
         self._api = self.parts.api
         self._interfaces = self.parts.interfaces
         self._history = self.parts.history
+        self._setup = self.parts.protection.setup
 
     def _tell_pages(self, message):
         self._plugin_manager.send_plugin_message(

@@ -15,6 +15,7 @@ from .printer_profile import PrinterProfile
 from .printer_requests import RequestChecks
 from .recovery import Recovery
 from .rrf.machine import Machine
+from .setup_page import Setup
 
 PRINT_BOUNDS = (
     Events.PRINT_STARTED,
@@ -42,7 +43,8 @@ class Protection:
 
     ``printer()``, ``profiles()`` and ``settings()`` are OctoPrint's, ``folder()`` is the plugin's
     own. ``bridge()`` knows the connection, ``machine()`` is the view of the model,
-    ``notice(code, detail)`` reaches the pages. ``end_job`` and ``look`` are those of
+    ``notice(code, detail)`` reaches the pages, ``is_ready()`` says
+    whether the whole model is known. ``end_job`` and ``look`` are those of
     ``MachineCommands``.
     """
 
@@ -57,6 +59,7 @@ class Protection:
         notice,
         end_job,
         look,
+        is_ready,
         clock,
     ):
         def model():
@@ -104,8 +107,20 @@ class Protection:
             clock,
         )
         """Also called by other plugins."""
+        self.setup = Setup(
+            self._settings,
+            self._profile,
+            settings,
+            lambda: bridge().is_rrf and is_ready(),
+            lambda: bridge().has_a_print() or machine().prints,
+        )
+        """What the settings page and the first-run wizard show."""
         self.commands = PluginCommands(
-            self.machine, self._settings.fix, self._profile.fix, self.restore
+            self.machine,
+            self._settings.fix,
+            self.setup.fix_profile,
+            self.restore,
+            self.setup.wizard_done,
         )
         self.refusals = [
             self.guard.refuse,

@@ -41,6 +41,8 @@ DEFAULTS = {
     "prompts": False,
     # rows of the sidebar that are shown
     "sidebar": dict.fromkeys(SIDEBAR, True),
+    # whether somebody has been led through what a machine needs of OctoPrint
+    "wizard_seen": False,
     "simulator": {
         # whether the port RRF-SIM is offered
         "enabled": False,

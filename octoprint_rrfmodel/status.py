@@ -4,13 +4,14 @@
 class PluginStatus:
     """Puts the state together from those who know its parts; any thread may ask."""
 
-    def __init__(self, version, bridge, poller, follower, is_connected, warnings, clock):
+    def __init__(self, version, bridge, poller, follower, is_connected, warnings, first_run, clock):
         self._version = version
         self._bridge = bridge
         self._poller = poller
         self._follower = follower
         self._is_connected = is_connected
         self._warnings = warnings
+        self._first_run = first_run
         self._clock = clock
         self._reported = {}
 
@@ -42,6 +43,7 @@ class PluginStatus:
                 **follower.counters,
             },
             "warnings": self._warnings(),
+            "first_run": self._first_run(),
         }
 
     def _firmware(self):

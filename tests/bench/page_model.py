@@ -67,9 +67,10 @@ def measure() -> None:
 
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         board = Board(machine="toolchanger")
-        with PtyBoard(board, Path(folder) / "rrf-bench") as pty, OctoPrintServer(
-            Path(folder) / "octoprint", ports_glob=f"{folder}/rrf-*"
-        ) as server:
+        with (
+            PtyBoard(board, Path(folder) / "rrf-bench") as pty,
+            OctoPrintServer(Path(folder) / "octoprint", ports_glob=f"{folder}/rrf-*") as server,
+        ):
             server.connect(pty.link)
             helpers.wait_ready(server)
             browser = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)

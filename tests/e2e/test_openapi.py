@@ -95,7 +95,7 @@ def test_served_as_it_is_in_the_package(server):
 
 def test_every_command_is_described_with_its_parameters():
     schemas = json.loads(PATH.read_text(encoding="utf-8"))["components"]["schemas"]
-    own = {"fix_settings", "restore_settings", "fix_profile"}
+    own = {"fix_settings", "restore_settings", "fix_profile", "wizard_done"}
     described = {
         name[len("Command_") :]: (set(found["properties"]), set(found["required"]))
         for name, found in schemas.items()

@@ -104,8 +104,8 @@ def sent(server):
 @pytest.mark.parametrize(
     ("parameters", "wrong", "right", "goes_out"),
     [
-        ('S5 L1 H9 F4', ["0", "10", "2.5", ""], "7", "7"),
-        ('S6 L0.5 H2.5 F1', ["0.4", "3", ""], "1.25", "1.25"),
+        ("S5 L1 H9 F4", ["0", "10", "2.5", ""], "7", "7"),
+        ("S6 L0.5 H2.5 F1", ["0.4", "3", ""], "1.25", "1.25"),
         ('S7 L2 H5 F"abc"', ["a", "abcdef"], "half", "half"),
     ],
     ids=["integer", "number", "text"],

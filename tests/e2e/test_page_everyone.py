@@ -82,7 +82,8 @@ def test_480_pixels_are_enough(page, server, view):
     # what has a scroll bar of its own may be wider
     too_wide = region.evaluate("""region => Array.from(region.querySelectorAll("*")).filter(
         element => element.getBoundingClientRect().right > window.innerWidth
-            && !element.closest(".rrfmodel-scroll")).map(element => element.outerHTML.slice(0, 200))""")
+            && !element.closest(".rrfmodel-scroll"))
+        .map(element => element.outerHTML.slice(0, 200))""")
     assert too_wide == []
     # who touches needs room for a finger
     heights = region.locator("button:visible").evaluate_all(

@@ -185,7 +185,7 @@ def test_text_of_the_printer_is_text(view, board, page_errors):
 
 
 def test_a_selected_value_that_goes_away_is_no_longer_told_of(view, board):
-    board.board.execute('global soon = 1', channel="http")
+    board.board.execute("global soon = 1", channel="http")
     find(view, "global.soon")
     row(view, "soon", 2).click()
     wait_text(part(view, "detail-value"), "1")

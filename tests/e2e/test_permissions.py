@@ -23,6 +23,7 @@ ENDPOINTS = [
     ("GET", f"{BASE}/model/live?key=state.upTime", None, READ, 200),
     ("GET", f"{BASE}/history", None, READ, 200),
     ("GET", f"{BASE}/meanings", None, READ, 200),
+    ("GET", f"{BASE}/setup", None, SETTINGS, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),
     ("GET", f"{BASE}/printer/objects/list", None, READ, 200),
@@ -35,6 +36,7 @@ ENDPOINTS = [
     ("POST", SIMPLE, {"command": "fan", "fan": 0, "speed": 0.5}, CONTROL, 204),
     ("POST", SIMPLE, {"command": "refresh"}, CONTROL, 204),
     ("POST", SIMPLE, {"command": "restore_settings"}, SETTINGS, 204),
+    ("POST", SIMPLE, {"command": "wizard_done"}, SETTINGS, 204),
     ("POST", SIMPLE, {"command": "fix_settings"}, SETTINGS, 204),
 ]
 

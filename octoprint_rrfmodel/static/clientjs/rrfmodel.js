@@ -34,6 +34,11 @@
             return this.base.get(this.url + "meanings", opts);
         }
 
+        /** Resolves to what is to be set up in OctoPrint for the machine. */
+        getSetup(opts) {
+            return this.base.get(this.url + "setup", opts);
+        }
+
         /** Sends a command to the plugin; rejects with its reason in `responseJSON.error`. */
         command(name, parameters, opts) {
             return this.base.simpleApiCommand("rrfmodel", name, parameters || {}, opts);

@@ -1,1 +1,132 @@
-/* The plugin's settings: what RepRapFirmware needs of OctoPrint, and the printer profile. */
+/* What RepRapFirmware needs of OctoPrint, and the printer profile: in the settings and the wizard. */
+$(function () {
+    const STEPS = ["settings", "profile"];
+
+    function RrfModelSetupViewModel(parameters) {
+        const self = this;
+        const core = parameters[0];
+        let dialog;
+
+        const fieldNames = {
+            "volume.formFactor": gettext("Form of the bed"),
+            "volume.origin": gettext("Origin"),
+            "volume.width": gettext("Width (X) in mm"),
+            "volume.depth": gettext("Depth (Y) in mm"),
+            "volume.height": gettext("Height (Z) in mm"),
+            "volume.custom_box": gettext("Limits of the axes"),
+            "axes.x.speed": gettext("Speed of X in mm/min"),
+            "axes.y.speed": gettext("Speed of Y in mm/min"),
+            "axes.z.speed": gettext("Speed of Z in mm/min"),
+            "axes.e.speed": gettext("Speed of extruders in mm/min"),
+            "extruder.count": gettext("Number of extruders"),
+            "extruder.sharedNozzle": gettext("Extruders share a nozzle"),
+            "heatedBed": gettext("Heated bed"),
+            "heatedChamber": gettext("Heated chamber")
+        };
+        const values = {
+            rectangular: gettext("rectangular"),
+            circular: gettext("round"),
+            lowerleft: gettext("lower left"),
+            center: gettext("centre")
+        };
+
+        const shown = function (value) {
+            if (value === true) return gettext("yes");
+            if (value === false || value === null || value === undefined) return gettext("no");
+            if (typeof value === "number") return String(Math.round(value * 100) / 100);
+            if (Array.isArray(value)) return value.join(", ");
+            if (typeof value === "object")
+                return ["x", "y", "z"]
+                    .map((axis) => [value[axis + "_min"], value[axis + "_max"]].join(" … "))
+                    .join(", ");
+            return values[value] || String(value);
+        };
+
+        self.maySet = core.maySet;
+        self.isReady = ko.observable(false);
+        self.needed = ko.observableArray();
+        self.fields = ko.observableArray();
+        self.step = ko.observable(STEPS[0]);
+
+        self.isComplete = ko.pureComputed(() => self.needed().every((row) => row.fulfilled));
+        self.isChosen = ko.pureComputed(() => self.fields().some((row) => row.isWanted()));
+
+        self.fromSetup = function (setup) {
+            self.isReady(setup.ready);
+            self.needed(
+                setup.settings.map((row) => ({
+                    setting: row.setting,
+                    fulfilled: row.fulfilled,
+                    text: RRFModel.warningText({code: row.code}) || row.code,
+                    now: shown(row.now),
+                    wanted: row.missing.length
+                        ? _.sprintf(gettext("also %(codes)s"), {codes: row.missing.join(", ")})
+                        : shown(row.wanted),
+                    stateText: row.fulfilled ? gettext("as needed") : gettext("to be set")
+                }))
+            );
+            self.fields(
+                setup.profile.map((row) => ({
+                    field: row.field,
+                    name: fieldNames[row.field] || row.field,
+                    now: shown(row.now),
+                    wanted: shown(row.wanted),
+                    isWanted: ko.observable(true)
+                }))
+            );
+        };
+
+        self.requestData = function () {
+            if (!core.maySet()) return undefined;
+            return OctoPrint.plugins.rrfmodel.getSetup().done(self.fromSetup);
+        };
+
+        self.fixSettings = () => core.command("fix_settings").done(self.requestData);
+        self.writeProfile = () =>
+            core
+                .command("fix_profile", {
+                    fields: self
+                        .fields()
+                        .filter((row) => row.isWanted())
+                        .map((row) => row.field)
+                })
+                .done(self.requestData);
+
+        self.onSettingsShown = self.requestData;
+
+        //~~ the first-run wizard
+
+        self.isStep = (name) => ko.pureComputed(() => self.step() === name);
+        self.next = () => self.step(STEPS[1]);
+        self.back = () => self.step(STEPS[0]);
+        self.later = () => dialog.modal("hide");
+        self.done = function () {
+            dialog.modal("hide");
+            core.command("wizard_done");
+        };
+
+        let wasOffered = false;
+        const offer = function (status) {
+            if (!status.first_run || !core.maySet() || wasOffered) return;
+            // once a page: who wants it later has closed it
+            wasOffered = true;
+            self.requestData().done(function () {
+                self.step(STEPS[0]);
+                dialog.modal({keyboard: true});
+            });
+        };
+
+        self.onAllBound = function () {
+            dialog = $("#rrfmodel_wizard_dialog");
+            dialog.on("shown", () => dialog.find("button:visible").first().focus());
+            core.status.subscribe(offer);
+            offer(core.status());
+        };
+    }
+
+    OCTOPRINT_VIEWMODELS.push({
+        construct: RrfModelSetupViewModel,
+        dependencies: ["rrfModelViewModel"],
+        elements: ["#rrfmodel_setup", "#rrfmodel_wizard"]
+    });
+});

@@ -1,0 +1,64 @@
+"""What is to be set up for a machine: OctoPrint's settings, the printer profile, the first run."""
+
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+
+from .api import answer, refusal
+from .command_texts import command_text
+
+SEEN = ["wizard_seen"]
+
+
+class Setup:
+    """Tells what there is to set up, and writes what somebody has chosen of it.
+
+    ``settings`` are ``OctoPrintSettings``, ``profile`` is the ``PrinterProfile``, ``own()`` are
+    the plugin's settings. ``is_ready()`` says whether the machine has told its whole model,
+    ``prints()`` whether OctoPrint or the machine prints.
+    """
+
+    def __init__(self, settings, profile, own, is_ready, prints):
+        self._settings = settings
+        self._profile = profile
+        self._own = own
+        self._is_ready = is_ready
+        self._prints = prints
+
+    def is_first_run(self):
+        """Return whether nobody has been led through this since the plugin was installed."""
+        return self._is_ready() and not self._own().get_boolean(SEEN)
+
+    def get_setup(self):
+        """Return all of it; the differences are empty while no whole model is known."""
+        if not Permissions.SETTINGS.can():
+            return refusal(403, gettext("You may not see OctoPrint's settings."))
+        return answer(
+            {
+                "first_run": self.is_first_run(),
+                "ready": self._is_ready(),
+                "settings": self._settings.table(),
+                "profile": self._profile.differences() if self._is_ready() else [],
+            }
+        )
+
+    def fix_profile(self, parameters):
+        """Write the fields that are named, or raise the number of extruders where none is."""
+        fields = parameters.get("fields")
+        if fields is None:
+            self._profile.fix()
+            return None
+        if not isinstance(fields, list) or not all(isinstance(name, str) for name in fields):
+            return 400, command_text("not_fields", {})
+        if self._prints():
+            return 409, gettext("Something is being printed. Change the profile afterwards.")
+        if not self._is_ready():
+            return 409, gettext("The machine has not told its whole model yet. Try again soon.")
+        unknown = self._profile.write(fields)
+        if unknown:
+            return 400, command_text("unknown_field", {"field": unknown[0][:40]})
+        return None
+
+    def wizard_done(self, parameters):
+        """Note that somebody has been led through, and wants no more of it."""
+        self._own().set_boolean(SEEN, True)
+        self._own().save()
