@@ -30,6 +30,21 @@ class LiveQuestions:
         """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
         return self._poller.query(key, flags)
 
+    def ask_for(self, request):
+        """Return a future of the answer to another request than one for the model."""
+        return self._poller.query_for(request)
+
+    def changes_of_the_card(self):
+        """Return what is another after each change of the card, as far as the board counts them."""
+        return str(self._follower.store.model.get("seqs", {}).get("volChanges"))
+
+    def refusal_of_the_card(self):
+        """Return why nothing can be asked about the card now, ``None`` where it can."""
+        if self._bridge.is_streaming_a_print():
+            # reading a card takes its time, and the print's lines would wait
+            return gettext("OctoPrint prints. Look at the machine's card afterwards.")
+        return self.refusal()
+
     def refusal(self):
         """Return why the printer can't be asked now, ``None`` where it can."""
         if not self._bridge.is_rrf:

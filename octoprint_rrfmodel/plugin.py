@@ -7,6 +7,7 @@ from octoprint.events import eventManager
 
 from .assets import ASSETS
 from .endpoints import Endpoints
+from .folders import FolderHandler, Folders
 from .host import Host
 from .live import LiveModelHandler
 from .parts import Parts
@@ -139,7 +140,12 @@ class RrfModelPlugin(
         from octoprint.server import app
 
         live = {"questions": self.parts.questions, "app": app}
-        return [(r"/model/live", LiveModelHandler, live), *self._interfaces.routes(app)]
+        folders = Folders(self.parts.questions.ask_for, self.parts.questions.changes_of_the_card)
+        return [
+            (r"/model/live", LiveModelHandler, live),
+            (r"/files", FolderHandler, {**live, "folders": folders}),
+            *self._interfaces.routes(app),
+        ]
 
     ##~~ octoprint.server.api.before_request
 

@@ -4,7 +4,10 @@ import collections
 import concurrent.futures
 import threading
 
-from .rrf.request import ModelRequest
+from .rrf.follower import answers
+from .rrf.line import NO_BUFFERS
+from .rrf.reply import MalformedReply, ModelReply, decode, decode_page
+from .rrf.request import ListRequest, ModelRequest
 
 MOST_QUERIES = 4
 """Questions to the printer that may wait for the one poll slot."""
@@ -25,6 +28,7 @@ class Poll:
         self.sent_at = None
         self.status_sent = False
         self.answered = False
+        self.lists_a_folder = isinstance(request, ListRequest)
 
     def is_over(self):
         """Return whether the next poll may leave."""
@@ -59,12 +63,16 @@ class Queries:
 
     def ask(self, key, flags):
         """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
+        return self.ask_for(ModelRequest(key, flags))
+
+    def ask_for(self, request):
+        """Return a future of a ``ModelReply``, of a ``FolderPage`` for a ``ListRequest``."""
         future = concurrent.futures.Future()
         with self._lock:
             if self._is_open and len(self._waiting) >= MOST_QUERIES:
                 raise TooManyQueries
             if self._is_open:
-                self._waiting.append((ModelRequest(key, flags), future))
+                self._waiting.append((request, future))
                 return future
         fail(future, GONE)
         return future
@@ -85,3 +93,29 @@ def fail(future, reason):
     """Let a future fail, if it isn't done."""
     if not future.done():
         future.set_exception(RuntimeError(reason))
+
+
+NO_ROOM = "the printer had no room for this answer"
+
+
+def answer_query(poll, text):
+    """Give a reply to who asked; return whether it is the answer."""
+    try:
+        if text == NO_BUFFERS:
+            fail(poll.query, NO_ROOM)
+        elif poll.lists_a_folder:
+            page = decode_page(text)
+            if page.folder.rstrip("/") != poll.request.folder or page.first != poll.request.first:
+                return False
+            poll.query.set_result(page)
+        else:
+            reply = decode(text)
+            if not isinstance(reply, ModelReply):
+                fail(poll.query, NO_ROOM)
+            elif not answers(reply, poll.request):
+                return False
+            else:
+                poll.query.set_result(reply)
+    except MalformedReply as error:
+        fail(poll.query, str(error))
+    return True

@@ -6,12 +6,11 @@ All of this runs on the worker thread, which calls ``tick`` and hands in what th
 import logging
 import re
 
-from .poll_slot import GONE, Poll, Queries, fail
-from .rrf.follower import answers
+from .poll_slot import GONE, Poll, Queries, answer_query, fail
 from .rrf.line import LIST_REPLY, NO_BUFFERS
 from .rrf.machine import Machine
 from .rrf.pace import Pace
-from .rrf.reply import MalformedReply, ModelReply, decode, decode_page
+from .rrf.reply import MalformedReply, decode_page
 from .rrf.request import LIVE_FLAGS, ModelRequest
 
 ANSWER_SECONDS = 10.0
@@ -55,6 +54,7 @@ class Poller:
         self._queries = Queries()
         self._was_query = False
         self.query = self._queries.ask
+        self.query_for = self._queries.ask_for
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
         self.asked_at = 0.0
@@ -158,13 +158,15 @@ class Poller:
         poll = self._poll
         if poll is None or poll.sent_at is None or poll.answered:
             return
-        if poll.is_card != text.startswith(LIST_REPLY) and text != NO_BUFFERS:
+        if poll.lists_a_folder != text.startswith(LIST_REPLY) and text != NO_BUFFERS:
             return
         if poll.is_card:
             self._take_page(poll, text)
             return
         if poll.query is not None:
-            self._answer_query(poll, text)
+            if answer_query(poll, text):
+                poll.answered = True
+                self._finish_if_over()
             return
         asked_at = poll.sent_at
         try:
@@ -192,10 +194,14 @@ class Poller:
     def card_refused(self):
         """Note that the board would not list a folder."""
         poll = self._poll
-        if poll is not None and poll.is_card and poll.sent_at is not None and not poll.answered:
-            poll.answered = True
+        if poll is None or not poll.lists_a_folder or poll.sent_at is None or poll.answered:
+            return
+        poll.answered = True
+        if poll.is_card:
             self._card.failed()
-            self._finish_if_over()
+        else:
+            fail(poll.query, "the printer would not list that folder")
+        self._finish_if_over()
 
     ##~~ the poll slot
 
@@ -274,20 +280,5 @@ class Poller:
             return
         else:
             self._pace.answered(len(text), self._clock() - poll.sent_at)
-        poll.answered = True
-        self._finish_if_over()
-
-    def _answer_query(self, poll, text):
-        try:
-            reply = decode(text)
-        except MalformedReply as error:
-            fail(poll.query, str(error))
-        else:
-            if isinstance(reply, ModelReply) and not answers(reply, poll.request):
-                return
-            if isinstance(reply, ModelReply):
-                poll.query.set_result(reply)
-            else:
-                fail(poll.query, "the printer had no room for this answer")
         poll.answered = True
         self._finish_if_over()

@@ -23,6 +23,7 @@ ENDPOINTS = [
     ("GET", f"{BASE}/model/live?key=state.upTime", None, READ, 200),
     ("GET", f"{BASE}/history", None, READ, 200),
     ("GET", f"{BASE}/meanings", None, READ, 200),
+    ("GET", f"{BASE}/files?path=0:/macros", None, READ, 200),
     ("GET", f"{BASE}/setup", None, SETTINGS, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),

@@ -34,6 +34,11 @@
             return this.base.get(this.url + "meanings", opts);
         }
 
+        /** Resolves to the entries of a folder of the machine's card. */
+        getFiles(path, opts) {
+            return this.base.get(this.url + "files?" + $.param({path: path}), opts);
+        }
+
         /** Resolves to what is to be set up in OctoPrint for the machine. */
         getSetup(opts) {
             return this.base.get(this.url + "setup", opts);

@@ -1,1 +1,248 @@
 /* The sub-view Machine, below: what the machine has besides heaters, fans and axes. */
+$(function () {
+    const MACROS = "0:/macros";
+    const FILAMENTS = "0:/filaments";
+    const FIRST_NUMBER = /^\d+(\.\d+)*/;
+
+    const list = (value) => (Array.isArray(value) ? value : []);
+    const object = (value) => (value && typeof value === "object" ? value : {});
+    const numbered = (value) =>
+        list(value)
+            .map((item, index) => ({item: item, index: index}))
+            .filter((found) => !!found.item);
+
+    /** A folder of the card that is listed when it is asked for, and opens into those below. */
+    function Folder(core, root) {
+        const self = this;
+        self.path = ko.observable(root);
+        self.entries = ko.observableArray();
+        self.isOpen = ko.observable(false);
+        self.isReading = ko.observable(false);
+        self.isRoot = ko.pureComputed(() => self.path() === root);
+
+        const read = function (path) {
+            self.isReading(true);
+            OctoPrint.plugins.rrfmodel
+                .getFiles(path)
+                .done(function (found) {
+                    self.path(path);
+                    self.entries(
+                        found.entries.sort(
+                            (one, other) =>
+                                other.folder - one.folder || one.name.localeCompare(other.name)
+                        )
+                    );
+                    self.isOpen(true);
+                })
+                .fail(core.tellRefusal)
+                .always(() => self.isReading(false));
+        };
+        self.show = () => (self.isOpen() ? self.isOpen(false) : read(self.path()));
+        self.enter = (entry) => read(self.path() + "/" + entry.name);
+        self.up = () => read(self.path().slice(0, self.path().lastIndexOf("/")));
+        self.pathOf = (entry) => self.path() + "/" + entry.name;
+    }
+
+    function RrfModelMachinePartsViewModel(parameters) {
+        const self = this;
+        const core = parameters[0];
+        const model = core.modelOfView("machine");
+        const show = RRFModel.show;
+
+        self.isShown = ko.pureComputed(() => core.isRrf() && core.view() === "machine");
+        self.mayControl = core.mayControl;
+
+        const sensors = ko.pureComputed(() => object(model("sensors")));
+        const state = ko.pureComputed(() => object(model("state")));
+        const move = ko.pureComputed(() => object(model("move")));
+        const yesNo = (value) => (value ? gettext("triggered") : gettext("open"));
+
+        self.endstops = RRFModel.rows(() =>
+            numbered(sensors().endstops).map((found) => ({
+                key: found.index,
+                name: object(list(move().axes)[found.index]).letter || String(found.index),
+                text: yesNo(found.item.triggered),
+                isTriggered: !!found.item.triggered
+            }))
+        );
+
+        self.probes = RRFModel.rows(() =>
+            numbered(sensors().probes).map((found) => ({
+                key: found.index,
+                name: _.sprintf(gettext("Probe %(number)s"), {number: found.index}),
+                value: list(found.item.value).join(" / "),
+                offsets: list(found.item.offsets)
+                    .map((offset) => show.fixed(offset, 2))
+                    .join(", "),
+                height: show.fixed(found.item.triggerHeight, 3)
+            }))
+        );
+
+        self.monitors = RRFModel.rows(() =>
+            numbered(sensors().filamentMonitors).map((found) => ({
+                key: found.index,
+                name: _.sprintf(gettext("Extruder %(number)s"), {number: found.index}),
+                type: found.item.type || "",
+                status: found.item.status || "",
+                isBad: !["ok", "noDataReceived", "noMonitor", undefined].includes(found.item.status)
+            }))
+        );
+
+        //~~ spindles, laser, power
+
+        self.spindles = RRFModel.rows(
+            () =>
+                numbered(model("spindles"))
+                    .filter((found) => found.item.state !== "unconfigured")
+                    .map((found) => ({
+                        key: found.index,
+                        name: _.sprintf(gettext("Spindle %(number)s"), {number: found.index}),
+                        current: show.fixed(found.item.current, 0),
+                        active: found.item.active,
+                        state: found.item.state || "",
+                        max: found.item.max
+                    })),
+            function (row) {
+                row.label = _.sprintf(gettext("Speed of %(name)s in rpm"), {name: row.name()});
+                row.direction = ko.observable("forward");
+                row.set = (rpm) =>
+                    core.command("spindle", {
+                        spindle: row.key,
+                        rpm: rpm,
+                        direction: row.direction()
+                    });
+                row.stop = () => core.command("spindle", {spindle: row.key, rpm: 0});
+                row.isReverse = ko.pureComputed({
+                    read: () => row.direction() === "reverse",
+                    write: (value) => row.direction(value ? "reverse" : "forward")
+                });
+            }
+        );
+        self.laser = ko.pureComputed(() =>
+            state().machineMode === "Laser" ? show.percent(object(move().currentMove).laserPwm) : ""
+        );
+
+        self.hasPower = ko.pureComputed(() => typeof state().atxPower === "boolean");
+        self.isOn = ko.pureComputed(() => state().atxPower === true);
+        self.powerText = ko.pureComputed(() => (self.isOn() ? gettext("on") : gettext("off")));
+        self.switchOn = () => core.command("power", {on: true});
+        self.switchOff = () =>
+            showConfirmationDialog({
+                message: gettext("Heaters and motors lose their power."),
+                question: gettext("Switch the power off?"),
+                proceed: gettext("Switch off"),
+                cancel: gettext("Cancel"),
+                onproceed: () => core.command("power", {on: false})
+            });
+
+        //~~ mesh, kinematics, calibration
+
+        const compensation = ko.pureComputed(() => object(move().compensation));
+        const COMPENSATIONS = {
+            none: gettext("none"),
+            mesh: gettext("mesh"),
+            point: gettext("points")
+        };
+        self.meshType = ko.pureComputed(
+            () => COMPENSATIONS[compensation().type] || compensation().type || "–"
+        );
+        self.meshFile = ko.pureComputed(() => compensation().file || "");
+        self.meshDeviation = ko.pureComputed(function () {
+            const deviation = object(compensation().meshDeviation);
+            return typeof deviation.mean !== "number"
+                ? ""
+                : _.sprintf(gettext("mean %(mean)s mm, deviation %(deviation)s mm"), {
+                      mean: show.fixed(deviation.mean, 3),
+                      deviation: show.fixed(deviation.deviation, 3)
+                  });
+        });
+        self.mesh = (action) => () => core.command("mesh", {action: action});
+
+        self.kinematics = ko.pureComputed(() => object(move().kinematics).name || "–");
+        self.calibration = ko.pureComputed(function () {
+            const found = object(move().calibration);
+            const final = object(found.final);
+            return found.numFactors && typeof final.deviation === "number"
+                ? _.sprintf(gettext("%(factors)s factors, deviation %(deviation)s mm"), {
+                      factors: found.numFactors,
+                      deviation: show.fixed(final.deviation, 3)
+                  })
+                : "";
+        });
+
+        //~~ boards, network, volumes
+
+        const volts = (value) => (typeof value === "number" ? value.toFixed(1) + " V" : "");
+        const versionOf = (text) => (FIRST_NUMBER.exec(text || "") || [""])[0];
+        self.boards = RRFModel.rows(() =>
+            numbered(model("boards")).map(function (found) {
+                const board = found.item;
+                const main = object(list(model("boards"))[0]);
+                const temperature = object(board.mcuTemp).current;
+                return {
+                    key: found.index,
+                    name: board.name || board.shortName || String(found.index),
+                    version: board.firmwareVersion || "",
+                    differs:
+                        !!board.firmwareVersion &&
+                        versionOf(board.firmwareVersion) !== versionOf(main.firmwareVersion),
+                    supply: volts(object(board.vIn).current),
+                    twelve: volts(object(board.v12).current),
+                    temperature:
+                        typeof temperature === "number" ? temperature.toFixed(1) + " °C" : ""
+                };
+            })
+        );
+
+        self.interfaces = RRFModel.rows(() =>
+            numbered(object(model("network")).interfaces).map((found) => ({
+                key: found.index,
+                type: found.item.type || "",
+                address: found.item.actualIP || "",
+                state: found.item.state || "",
+                // an address and nothing else: it goes into a link
+                link: /^\d{1,3}(\.\d{1,3}){3}$/.test(found.item.actualIP || "") &&
+                    found.item.actualIP !== "0.0.0.0"
+                        ? "http://" + found.item.actualIP + "/"
+                        : ""
+            }))
+        );
+        self.machineName = ko.pureComputed(() => object(model("network")).name || "");
+
+        const gigabytes = (bytes) =>
+            typeof bytes === "number" ? (bytes / 1e9).toFixed(1) + " GB" : "–";
+        self.volumes = RRFModel.rows(() =>
+            numbered(model("volumes")).map((found) => ({
+                key: found.index,
+                name: found.item.name || String(found.index),
+                text: found.item.mounted
+                    ? _.sprintf(gettext("%(free)s of %(size)s free"), {
+                          free: gigabytes(found.item.freeSpace),
+                          size: gigabytes(found.item.capacity)
+                      })
+                    : gettext("not mounted")
+            }))
+        );
+
+        //~~ macros, filaments
+
+        self.macros = new Folder(core, MACROS);
+        self.pickMacro = (entry) =>
+            entry.folder
+                ? self.macros.enter(entry)
+                : core.command("macro", {path: self.macros.pathOf(entry)});
+
+        self.filaments = new Folder(core, FILAMENTS);
+        self.filamentNames = ko.pureComputed(() =>
+            self.filaments.entries().filter((entry) => entry.folder)
+        );
+        self.load = (entry) => core.command("filament", {action: "load", name: entry.name});
+        self.unload = () => core.command("filament", {action: "unload"});
+    }
+
+    OCTOPRINT_VIEWMODELS.push({
+        construct: RrfModelMachinePartsViewModel,
+        dependencies: ["rrfModelViewModel"],
+        elements: ["#rrfmodel_machine_parts"]
+    });
+});

@@ -1,0 +1,171 @@
+"""The sub-view Machine, below: sensors, boards, files; each control used on the board."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.basedir import ADMIN, READER
+
+from . import helpers
+from .page import open_view as open_machine
+from .page import own_errors, part, type_number, wait_board, wait_text
+
+pytestmark = pytest.mark.timeout(240)
+
+
+@pytest.fixture(scope="module")
+def board(module_board_factory):
+    return module_board_factory(machine="corexy", speed=20)
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory, board):
+    made = module_server_factory()
+    helpers.connect(made, board)
+    return made
+
+
+def opened(page, server, user):
+    open_machine(page, server, user, "machine")
+    return page.locator("#rrfmodel_machine_parts")
+
+
+@pytest.fixture
+def view(page, server):
+    return opened(page, server, ADMIN)
+
+
+def test_what_there_is_to_see(view, board, page_errors):
+    data = board.board.data
+    assert part(view, "endstop").count() == len([e for e in data["sensors"]["endstops"] if e])
+    assert part(view, "probe").count() == len([p for p in data["sensors"]["probes"] if p])
+    boards = part(view, "board")
+    assert boards.count() == len(data["boards"])
+    wait_text(boards.first, data["boards"][0]["firmwareVersion"])
+    wait_text(boards.first, "V")
+    wait_text(part(view, "kinematics"), data["move"]["kinematics"]["name"])
+    address = data["network"]["interfaces"][0]["actualIP"]
+    expect(part(view, "link")).to_have_attribute("href", f"http://{address}/")
+    wait_text(part(view, "volume").first, "free")
+    assert own_errors(page_errors) == []
+
+
+def test_mesh(view, server, board, page_errors):
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    part(view, "mesh-probe").click()
+    wait_board(server, board, "move.compensation.type", "mesh", 60)
+    wait_text(part(view, "mesh-type"), "mesh")
+    part(view, "mesh-clear").click()
+    wait_board(server, board, "move.compensation.type", "none", 20)
+    part(view, "mesh-load").click()
+    wait_board(server, board, "move.compensation.type", "mesh", 20)
+    assert own_errors(page_errors) == []
+
+
+def sent(server):
+    return server.sent()
+
+
+def test_macros(page, view, server, board, page_errors):
+    part(view, "macros").click()
+    macros = part(view, "macro")
+    macros.first.wait_for()
+    assert [name.strip() for name in macros.all_inner_texts()] == ["Ask first", "Say hello"]
+    macros.last.click()
+    server.wait_for(
+        lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 10, "the macro to be run"
+    )
+    assert own_errors(page_errors) == []
+
+
+def test_filaments(view, server, board):
+    board.board.execute("T0", channel="http")
+    helpers.wait_value(server, "state.currentTool", 0, 20)
+    part(view, "filaments").click()
+    part(view, "load").first.click()
+    wait_board(server, board, "move.extruders[0].filament", "PLA", 30)
+    helpers.wait_value(server, "move.extruders[0].filament", "PLA", 20)
+    part(view, "unload").click()
+    wait_board(server, board, "move.extruders[0].filament", "", 30)
+
+
+def test_power(page, view, server, board):
+    board.board.data["state"]["atxPower"] = False
+    board.board.bump("state")
+    part(view, "power-on").click()
+    wait_board(server, board, "state.atxPower", True)
+    wait_text(part(view, "power-state"), "on")
+    part(view, "power-off").click()
+    page.get_by_role("button", name="Switch off").last.click()
+    wait_board(server, board, "state.atxPower", False)
+    board.board.data["state"]["atxPower"] = None
+    board.board.bump("state")
+    expect(part(view, "power")).to_be_hidden(timeout=15_000)
+
+
+def test_board_of_another_version(view, board):
+    boards = board.board.data["boards"]
+    boards.append({**boards[0], "firmwareVersion": "3.4.6", "canAddress": 20})
+    board.board.bump("boards")
+    wait_text(part(view, "board").last, "differs", 20)
+    boards.pop()
+    board.board.bump("boards")
+    expect(part(view, "board")).to_have_count(len(boards), timeout=20_000)
+
+
+def test_who_may_only_read_can_use_nothing(page, server):
+    view = opened(page, server, READER)
+    controls = view.locator("button:visible, input:visible")
+    assert controls.count() > 4
+    assert {control.is_disabled() for control in controls.all()} == {True}
+
+
+def test_spindle(page, module_server_factory, module_board_factory):
+    board = module_board_factory(machine="cnc", speed=20)
+    server = module_server_factory()
+    helpers.connect(server, board)
+    view = opened(page, server, ADMIN)
+    spindle = part(view, "spindle")
+    assert spindle.count() == 1
+    type_number(part(spindle, "rpm"), 8000)
+    wait_board(server, board, "spindles[0].active", 8000)
+    wait_board(server, board, "spindles[0].state", "forward")
+    part(spindle, "reverse").check()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].state", "reverse")
+    part(spindle, "stop").click()
+    wait_board(server, board, "spindles[0].state", "stopped")
+
+
+# the endpoint behind the lists
+
+
+def files(server, path):
+    return server.get("/plugin/rrfmodel/files", params={"path": path})
+
+
+def test_folder(server):
+    answer = files(server, "0:/macros")
+    assert answer.status_code == 200, answer.text
+    assert answer.json()["path"] == "0:/macros"
+    assert [entry["name"] for entry in answer.json()["entries"]] == ["Say hello", "Ask first"]
+    before = len([line for line in server.sent() if "M20 S3" in line])
+    assert files(server, "0:/macros/").json() == answer.json()
+    assert len([line for line in server.sent() if "M20 S3" in line]) == before
+
+
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [
+        ("0:/nothing", 404),
+        ("", 400),
+        ("0:/" + "x" * 100, 400),
+        ('0:/a"b', 400),
+        ("0:/a;b", 400),
+        ("0:/a\nb", 400),
+    ],
+)
+def test_folders_that_are_none(server, path, status):
+    answer = files(server, path)
+    assert answer.status_code == status
+    assert answer.json()["error"]
