@@ -90,15 +90,15 @@ def test_filaments(view, server, board):
 
 
 def test_power(page, view, server, board):
-    board.board.data["state"]["atxPower"] = False
-    board.board.bump("state")
+    board.board.execute('M80 C"pson"', channel="http")
+    board.board.execute("M81", channel="http")
     part(view, "power-on").click()
     wait_board(server, board, "state.atxPower", True)
     wait_text(part(view, "power-state"), "on")
     part(view, "power-off").click()
-    page.get_by_role("button", name="Switch off").last.click()
+    page.locator(".modal:visible").get_by_role("button", name="Switch off").click()
     wait_board(server, board, "state.atxPower", False)
-    board.board.data["state"]["atxPower"] = None
+    board.board.data["state"].update(atxPower=None, atxPowerPort=None)
     board.board.bump("state")
     expect(part(view, "power")).to_be_hidden(timeout=15_000)
 
