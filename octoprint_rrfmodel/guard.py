@@ -74,9 +74,10 @@ class PrintGuard:
         self._told &= frozenset(causes)
         printer = self._printer()
         # what has begun to end or to pause needs nothing; cancelling is what a person wants
-        if not causes or not printer.is_printing():
+        if not causes or printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
             return
-        if printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
+        # last: OctoPrint counts a pause that has only begun as printing, and may be through by now
+        if not printer.is_printing():
             return
         self._pausing_for = (tuple(causes), "")
         printer.pause_print()
@@ -105,6 +106,9 @@ class PrintGuard:
         """Note that somebody has resumed the print: it is paused again if it may not go on."""
         self._told = frozenset()
         self._paused_for = None
+        if self._pausing_for is not None and not self._pausing_for[1]:
+            # a box may be what stops the print next, a cause would be found again
+            self._pausing_for = None
         self.look()
 
     def ended(self):

@@ -107,7 +107,7 @@ def test_streamed(server, connected):
         # from here on the login counts
         push.wait_for_plugin(bool)
         server.select_and_print("odd.gcode")
-        for number, _ in enumerate(stops):
+        for number, stop in enumerate(stops):
             server.wait_state("Paused", 20)
             # nothing goes out behind the place
             assert dwells(board) == [f"G4 P{before}" for before in range(number + 1)]
