@@ -77,11 +77,17 @@ class PrinterProfile:
             changes = self._changes.read()
             log = changes.setdefault(profile["id"], {}).setdefault("fields", {})
             for path in fields:
-                old = log.get(path, {"old": _at(profile, path)})["old"]
-                log[path] = {"old": old, "new": wanted[path]}
                 _put(changed, path, wanted[path])
-            self._changes.write(changes)
             self._save(changed)
+            # a form brings its origin with it: OctoPrint changes what goes along
+            saved = self._profiles().get(profile["id"])
+            for path in wanted:
+                old, new = _at(profile, path), _at(saved, path)
+                if not _is_same(old, new):
+                    known = log.get(path)
+                    is_ours = known is not None and _is_same(known["new"], old)
+                    log[path] = {"old": known["old"] if is_ours else old, "new": new}
+            self._changes.write(changes)
         return []
 
     def restore(self):

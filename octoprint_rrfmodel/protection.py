@@ -112,7 +112,7 @@ class Protection:
             self._profile,
             settings,
             lambda: bridge().is_rrf and is_ready(),
-            lambda: bridge().has_a_print() or machine().prints,
+            lambda: bridge().has_a_print() or machine().prints or machine().status == "paused",
         )
         """What the settings page and the first-run wizard show."""
         self.commands = PluginCommands(

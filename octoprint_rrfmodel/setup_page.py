@@ -26,7 +26,8 @@ class Setup:
 
     def is_first_run(self):
         """Return whether nobody has been led through this since the plugin was installed."""
-        return self._is_ready() and not self._own().get_boolean(SEEN)
+        seen = self._own().get_boolean(SEEN)
+        return not seen and self._is_ready() and not self._prints()
 
     def get_setup(self):
         """Return all of it; the differences are empty while no whole model is known."""
@@ -44,10 +45,11 @@ class Setup:
     def fix_profile(self, parameters):
         """Write the fields that are named, or raise the number of extruders where none is."""
         fields = parameters.get("fields")
-        if fields is None:
+        if fields is None and not self._prints():
             self._profile.fix()
             return None
-        if not isinstance(fields, list) or not all(isinstance(name, str) for name in fields):
+        is_list = isinstance(fields, list) and all(isinstance(name, str) for name in fields)
+        if fields is not None and not is_list:
             return 400, command_text("not_fields", {})
         if self._prints():
             return 409, gettext("Something is being printed. Change the profile afterwards.")

@@ -7,8 +7,12 @@ from typing import Any
 
 from .machine import Machine, array, mapping
 
-ROUND = ("delta", "rotaryDelta", "linearDelta", "hangprinter")
-"""Words of ``move.kinematics.name`` whose bed is round and whose origin is its centre."""
+ROUND = ("delta", "rotary delta", "hangprinter")
+"""Words of ``move.kinematics.name``, in small letters, whose bed is round and whose origin is its
+centre (3.5 Kinematics.cpp and those derived from it)."""
+
+MOST_EXTRUDERS = 99
+"""A host takes no more."""
 
 CENTRED_MM = 1.0
 """How far from the middle of an axis the origin may be and still be its centre."""
@@ -35,7 +39,8 @@ def _limits(model: Model) -> list[tuple[float, float]] | None:
     found = []
     for letter in "XYZ":
         low, high = (_real(axes.get(letter, {}).get(end)) for end in ("min", "max"))
-        if low is None or high is None or high <= max(low, 0.0):
+        # a router's Z ends at 0 and goes down from there
+        if low is None or high is None or high <= (low if letter == "Z" else max(low, 0.0)):
             return None
         found.append((low, high))
     return found
@@ -47,7 +52,7 @@ def _volume(model: Model) -> dict[str, Any]:
         return {}
     x, y, z = limits
     kinematics = mapping(mapping(model.get("move")).get("kinematics")).get("name")
-    if kinematics in ROUND:
+    if isinstance(kinematics, str) and kinematics.lower() in ROUND:
         across = 2 * min(-x[0], x[1], -y[0], y[1])
         if across <= 0:
             return {}
@@ -61,10 +66,10 @@ def _volume(model: Model) -> dict[str, Any]:
         "volume.origin": origin,
         "volume.width": width,
         "volume.depth": depth,
-        "volume.height": z[1],
+        "volume.height": z[1] if z[1] > 0 else z[1] - z[0],
         "volume.custom_box": False,
     }
-    if origin == "lowerleft" and any(low < 0 for low, _ in limits):
+    if z[0] < 0 or (origin == "lowerleft" and min(x[0], y[0]) < 0):
         values["volume.custom_box"] = {
             f"{letter}_{end}": limit
             for letter, (low, high) in zip("xyz", limits)
@@ -94,7 +99,8 @@ def _tools(model: Model) -> dict[str, Any]:
     heaters = [tuple(array(tool.get("heaters"))) for tool in tools.values()]
     is_shared = len(heaters) > 1 and bool(heaters[0]) and len(set(heaters)) == 1
     # numbers may leave gaps, and the host counts from 0
-    return {"extruder.count": max(tools) + 1, "extruder.sharedNozzle": is_shared}
+    count = {"extruder.count": max(tools) + 1} if max(tools) < MOST_EXTRUDERS else {}
+    return {**count, "extruder.sharedNozzle": is_shared}
 
 
 def _heaters(model: Model) -> dict[str, Any]:

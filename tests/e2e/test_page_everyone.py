@@ -159,3 +159,26 @@ def test_nothing_is_shown_without_a_machine(page, module_server_factory, page_er
     expect(part(page, "no-machine")).to_be_visible()
     assert page.locator("#tab_plugin_rrfmodel fieldset:visible").count() == 0
     assert json.dumps(page_errors) == "[]"
+
+
+LANGUAGES = {
+    "de": ("Maschine", "Alle referenzieren", "Ein Heizer meldet einen Fehler"),
+    "fr": ("Machine", "Prise d'origine générale", "Un élément chauffant signale un défaut"),
+    "es": ("Máquina", "Referenciar todo", "Un calentador avisa de un fallo"),
+}
+"""A word of the scripts, one of the tab's template, one of the settings' template."""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_page_speaks_the_language(page, server, language, page_errors):
+    script, tab, settings = LANGUAGES[language]
+    open_octoprint(page, server, ADMIN, f"/?l10n={language}#tab_plugin_rrfmodel/machine")
+    expect(part(page, "view-machine")).to_have_text(script)
+    expect(part(page, "home-all")).to_contain_text(tab)
+    assert settings in page.content()
+    assert own_errors(page_errors) == []
+
+
+def test_values_are_explained_in_the_language(server):
+    answer = server.get("/plugin/rrfmodel/meanings", headers={"Accept-Language": "de"})
+    assert answer.json()["heat.heaters[].current"]["text"] == "Temperatur jetzt"

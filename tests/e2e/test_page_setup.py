@@ -76,6 +76,20 @@ def test_only_what_is_chosen_is_written(server):
     assert volume["height"] == height
 
 
+def test_what_a_person_changed_in_between_is_what_comes_back(server):
+    def width():
+        return server.get(PROFILE).json()["volume"]["width"]
+
+    write = {"command": "fix_profile", "fields": ["volume.width"]}
+    server.post("/api/plugin/rrfmodel", json=write)
+    wanted = width()
+    server.patch(PROFILE, json={"profile": {"volume": {"width": 210}}})
+    server.post("/api/plugin/rrfmodel", json=write)
+    assert width() == wanted
+    command(server, command="restore_settings")
+    assert width() == 210
+
+
 @pytest.mark.parametrize("fields", ["volume.width", [1], ["volume.colour"]])
 def test_bad_fields_are_refused(server, fields):
     before = server.get(PROFILE).json()

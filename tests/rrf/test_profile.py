@@ -79,3 +79,20 @@ def test_one_nozzle_for_several_tools():
 def test_what_is_not_known_is_left_out(model):
     assert "volume.width" not in profile_values(model)
     assert "extruder.count" not in profile_values(model)
+
+
+@pytest.mark.parametrize("name", ["delta", "Rotary delta", "Hangprinter"])
+def test_round_machines(name):
+    move = {"axes": axes((-85, 85), (-85, 85), (-0.5, 200)), "kinematics": {"name": name}}
+    values = profile_values({"move": move})
+    assert (values["volume.formFactor"], values["volume.width"]) == ("circular", 170)
+    assert values["volume.custom_box"]["z_min"] == -0.5
+
+
+def test_a_router_goes_down_from_zero():
+    values = profile_values({"move": {"axes": axes((0, 600), (0, 400), (-120, 0))}})
+    assert values["volume.height"] == 120
+
+
+def test_more_extruders_than_a_host_takes_are_left_out():
+    assert "extruder.count" not in profile_values({"tools": [{"number": 120, "heaters": []}]})
