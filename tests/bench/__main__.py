@@ -1,6 +1,6 @@
 """Run every measurement and print each beside what it is compared with."""
 
-from tests.bench import hooks, live_reply, server
+from tests.bench import hooks, live_reply, page, server
 
 
 def main():
@@ -8,6 +8,7 @@ def main():
     live_reply.measure()
     hooks.measure()
     server.measure()
+    page.measure()
 
 
 if __name__ == "__main__":
