@@ -148,9 +148,12 @@ def test_fans_factors_and_baby_steps(view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
-def test_heater_fault_is_reset(view, server, board):
+def test_heater_fault_is_reset(page, view, server, board):
     board.board.inject("heater_fault:2")
     wait_text(part(view, "fault"), "Heater 2")
+    # the firmware opens a message box about it
+    page.locator("[data-test=box-ok]").click()
+    page.locator("[data-test=box]").wait_for(state="hidden")
     board.board.clear("heater_fault")
     part(view, "reset-fault").click()
     wait_board(server, board, "heat.heaters[2].state", "off")
