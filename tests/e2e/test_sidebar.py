@@ -123,3 +123,28 @@ def test_nobody_without_the_permission_sees_it(page, server):
     helpers.wait_polls(server, 3)
     assert page.locator("[data-test=rrfmodel-sidebar]").is_hidden()
     assert "Idle" not in page.locator("#sidebar_plugin_rrfmodel").inner_text()
+
+
+def test_a_warning_that_stays_is_not_made_anew(page, server, sidebar, board):
+    board.board.inject("heater_fault:1")
+    wait_text(sidebar, "Heater 1 reports a fault")
+    polls = helpers.status(server)["counters"]["polls"]
+    page.evaluate(
+        """() => {
+            window.alerts = 0;
+            const isAlert = (node) => node.nodeType === 1 && node.matches("[role=alert]");
+            const observer = new MutationObserver((found) => {
+                for (const change of found) {
+                    window.alerts += [...change.addedNodes].filter(isAlert).length;
+                }
+            });
+            const sidebar = document.querySelector("#sidebar_plugin_rrfmodel");
+            observer.observe(sidebar, {childList: true, subtree: true});
+        }"""
+    )
+    server.wait_for(
+        lambda: helpers.status(server)["counters"]["polls"] > polls + 3, 30, "more polls"
+    )
+    assert page.evaluate("window.alerts") == 0
+    board.board.clear("heater_fault")
+    board.board.execute("M562 P1", channel="http")

@@ -181,6 +181,8 @@ $(function () {
             });
             return rows;
         });
+        // the same warnings stay as they are, or a screen reader would tell them with each message
+        self.warnings.equalityComparer = _.isEqual;
 
         self.fix = (row) => notifications.fix(row);
 

@@ -19,6 +19,7 @@ $(function () {
         this.name = inList ? "[" + step + "]" : step;
         this.path = parent ? parent.path + joint + this.name : "";
         this.pattern = parent ? parent.pattern + joint + (inList ? "[]" : step) : "";
+        this.lowerName = this.name.toLowerCase();
         this.depth = parent ? parent.depth + 1 : -1;
         this.kind = this.value = undefined;
         this.children = null;
@@ -123,7 +124,7 @@ $(function () {
 
         judge(node, isBelowFound) {
             const {text, isPath, changed, live} = this.wanted;
-            const name = (isPath ? node.path : node.name).toLowerCase();
+            const name = isPath ? node.path.toLowerCase() : node.lowerName;
             const isNamed = isBelowFound || name.includes(text);
             node.leads = false;
             if (!node.children || !node.children.length) {
@@ -168,7 +169,7 @@ $(function () {
                 this.explain(node);
                 this.isReshaped = true;
             }
-            if (kind === LEAF) node.text = JSON.stringify(value);
+            if (kind === LEAF) node.text = typeof value === "string" ? JSON.stringify(value) : String(value);
             else isChanged = this.takeMembers(node, value) || isChanged;
             if (isChanged) {
                 node.isChanged = true;
