@@ -12,6 +12,13 @@ from .rrf.profile import profile_values
 
 NO_OFFSET = (0.0, 0.0)
 
+COUNT = "extruder.count"
+
+OFFSETS = "extruder.offsets"
+
+ADAPTED = ("volume.origin", "volume.depth", "volume.custom_box", OFFSETS)
+"""What OctoPrint fits by itself to what is written: to a round form, a size, a shared nozzle."""
+
 
 class PrinterProfile:
     """Compares the profile with the machine's tools, raises its number of extruders, lowers it.
@@ -44,17 +51,9 @@ class PrinterProfile:
     def fix(self):
         """Give the profile as many extruders as the machine's tool numbers need."""
         with self._lock:
-            profile = self._profiles().get_current_or_default()
-            count, needed = _count(profile), self._needed()
-            if count >= needed:
-                return
-            changes = self._changes.read()
-            known = changes.get(profile["id"], {})
-            is_raised_again = known.get("new") == count
-            old = known["old"] if is_raised_again else count
-            known = {**known, "old": old, "new": needed}
-            self._changes.write({**changes, profile["id"]: known})
-            self._set_count(profile, needed)
+            profile, needed = self._profiles().get_current_or_default(), self._needed()
+            if _count(profile) < needed:
+                self._write(profile, {COUNT: needed})
 
     def differences(self):
         """Return what the model says otherwise: path, value now and value wanted of each."""
@@ -73,59 +72,62 @@ class PrinterProfile:
             unknown = [path for path in fields if path not in wanted]
             if unknown:
                 return unknown
-            changed = copy.deepcopy(profile)
-            changes = self._changes.read()
-            log = changes.setdefault(profile["id"], {}).setdefault("fields", {})
-            for path in fields:
-                _put(changed, path, wanted[path])
-            self._save(changed)
-            # a form brings its origin with it: OctoPrint changes what goes along
-            saved = self._profiles().get(profile["id"])
-            for path in wanted:
-                old, new = _at(profile, path), _at(saved, path)
-                if not _is_same(old, new):
-                    known = log.get(path)
-                    is_ours = known is not None and _is_same(known["new"], old)
-                    log[path] = {"old": known["old"] if is_ours else old, "new": new}
-            self._changes.write(changes)
+            self._write(profile, {path: wanted[path] for path in fields})
         return []
 
     def restore(self):
         """Take back what was written to profiles and nobody has changed since."""
         with self._lock:
-            for name, change in self._changes.read().items():
+            for name, log in self._logs().items():
                 profile = self._profiles().get(name)
-                fields = change.pop("fields", {})
-                if profile and fields:
-                    profile = copy.deepcopy(profile)
-                    for path, values in fields.items():
-                        if _is_same(_at(profile, path), values["new"]):
-                            _put(profile, path, values["old"])
-                    self._save(profile)
-                if change and _is_as_raised(profile, **change):
-                    self._set_count(profile, change["old"])
+                old = {
+                    path: change["old"]
+                    for path, change in log.items()
+                    if profile and _is_as_written(profile, path, change)
+                }
+                if old:
+                    self._save(profile, old)
             self._changes.forget()
+
+    def _write(self, profile, values):
+        """Write values, and down what has become of the profile."""
+        self._save(profile, values)
+        saved = self._profiles().get(profile["id"])
+        logs = self._logs()
+        log = logs.setdefault(profile["id"], {})
+        for path in dict.fromkeys((*values, *ADAPTED)):
+            old, new = _at(profile, path), _at(saved, path)
+            if not _is_same(old, new):
+                known = log.get(path)
+                is_ours = known is not None and _is_same(known["new"], old)
+                log[path] = {"old": known["old"] if is_ours else old, "new": new}
+        self._changes.write({name: {"fields": log} for name, log in logs.items()})
+
+    def _logs(self):
+        """Return what was changed, by profile and path; older files have extruders apart."""
+        logs = {}
+        for name, change in self._changes.read().items():
+            logs[name] = dict(change.get("fields", {}))
+            if "old" in change:
+                logs[name].setdefault(COUNT, {"old": change["old"], "new": change["new"]})
+        return logs
 
     def _wanted(self, profile):
         wanted = profile_values(self._model())
         # somebody may have given it more
-        if wanted.get("extruder.count", 0) < _count(profile):
-            wanted.pop("extruder.count", None)
+        if wanted.get(COUNT, 0) < _count(profile):
+            wanted.pop(COUNT, None)
         return wanted
 
-    def _save(self, profile):
-        extruder = profile["extruder"]
+    def _save(self, profile, values):
+        changed = copy.deepcopy(profile)
+        for path, value in values.items():
+            _put(changed, path, value)
+        extruder = changed["extruder"]
         count = extruder["count"]
         extruder["offsets"] = [*extruder["offsets"], *[NO_OFFSET] * count][:count]
-        self._profiles().save(profile, allow_overwrite=True, trigger_event=True)
-        self._logger.info("Changed the printer profile %s", profile["id"])
-
-    def _set_count(self, profile, count):
-        extruder = profile["extruder"]
-        offsets = [*extruder["offsets"], *[NO_OFFSET] * count][:count]
-        changed = {**profile, "extruder": {**extruder, "count": count, "offsets": offsets}}
         self._profiles().save(changed, allow_overwrite=True, trigger_event=True)
-        self._logger.info("Changed the extruders of profile %s to %s", profile["id"], count)
+        self._logger.info("Changed profile %s: %s", profile["id"], values)
 
     def _needed(self):
         return max(Machine(self._model()).tools, default=-1) + 1
@@ -153,15 +155,25 @@ def _is_same(now, wanted):
     """Return whether two values of a profile mean the same; lengths come as int and as float."""
     if isinstance(now, dict) and isinstance(wanted, dict):
         return all(_is_same(now.get(name), wanted[name]) for name in wanted)
+    if isinstance(now, (list, tuple)) and isinstance(wanted, (list, tuple)):
+        return _used(now) == _used(wanted)
     is_number = type(now) in (int, float) and type(wanted) in (int, float)
     return abs(now - wanted) < 0.05 if is_number else now == wanted
 
 
-def _is_as_raised(profile, old, new):
-    """Return whether the profile still has the number that was set, and no use for it."""
-    if _count(profile) != new:
+def _used(offsets):
+    """Return offsets without those at the end that are none."""
+    pairs = [tuple(map(float, pair)) for pair in offsets]
+    while pairs and pairs[-1] == NO_OFFSET:
+        pairs.pop()
+    return pairs
+
+
+def _is_as_written(profile, path, change):
+    """Return whether a field still has the value that was written, and no use for it."""
+    if not _is_same(_at(profile, path), change["new"]):
         return False
-    return all(tuple(offset) == NO_OFFSET for offset in profile["extruder"]["offsets"][old:])
+    return path != COUNT or len(_used(_at(profile, OFFSETS))) <= change["old"]
 
 
 def _count(profile, otherwise=0):

@@ -7,12 +7,15 @@ from typing import Any
 
 from .machine import Machine, array, mapping
 
-ROUND = ("delta", "rotary delta", "hangprinter")
+ROUND = ("delta", "lineardelta", "rotary delta", "hangprinter")
 """Words of ``move.kinematics.name``, in small letters, whose bed is round and whose origin is its
-centre (3.5 Kinematics.cpp and those derived from it)."""
+centre (3.5 Kinematics.cpp and those derived from it; a delta is a linear one from 3.7 on)."""
 
 MOST_EXTRUDERS = 99
 """A host takes no more."""
+
+TOO_LONG_MM = 10_000
+"""A host takes no side of a volume that is as long as this."""
 
 CENTRED_MM = 1.0
 """How far from the middle of an axis the origin may be and still be its centre."""
@@ -61,20 +64,26 @@ def _volume(model: Model) -> dict[str, Any]:
         shape, origin, width, depth = "rectangular", "center", x[1] - x[0], y[1] - y[0]
     else:
         shape, origin, width, depth = "rectangular", "lowerleft", x[1], y[1]
+    height = z[1] if z[1] > 0 else z[1] - z[0]
+    if max(width, depth, height) >= TOO_LONG_MM:
+        return {}
     values: dict[str, Any] = {
         "volume.formFactor": shape,
         "volume.origin": origin,
         "volume.width": width,
         "volume.depth": depth,
-        "volume.height": z[1] if z[1] > 0 else z[1] - z[0],
+        "volume.height": height,
         "volume.custom_box": False,
     }
     if z[0] < 0 or (origin == "lowerleft" and min(x[0], y[0]) < 0):
-        values["volume.custom_box"] = {
-            f"{letter}_{end}": limit
-            for letter, (low, high) in zip("xyz", limits)
-            for end, limit in (("min", min(low, 0.0)), ("max", high))
-        }
+        # a host makes it no smaller than size and origin do
+        box = {}
+        lengths = [(width, origin == "center"), (depth, origin == "center"), (height, False)]
+        for letter, (low, high), (length, is_centred) in zip("xyz", limits, lengths):
+            start = -length / 2 if is_centred else 0.0
+            box[f"{letter}_min"] = min(low, start)
+            box[f"{letter}_max"] = max(high, start + length)
+        values["volume.custom_box"] = box
     return values
 
 

@@ -34,8 +34,8 @@ def warnings(server):
     return {found["code"]: found for found in helpers.status(server)["warnings"]}
 
 
-def command(client, name):
-    return client.post("/api/plugin/rrfmodel", json={"command": name})
+def command(client, name, **values):
+    return client.post("/api/plugin/rrfmodel", json={"command": name, **values})
 
 
 def stored(server):
@@ -183,24 +183,69 @@ def test_profile(server, board_factory, profile):
         pytest.param({"offsets": [[0.0, 0.0]] * 10 + [[25.0, 0.0]]}, id="offsets"),
     ],
 )
-def test_profile_that_a_person_changed_since_stays(server, board_factory, profile, change):
+@pytest.mark.parametrize("values", [{}, {"fields": ["extruder.count"]}], ids=["raised", "written"])
+def test_profile_that_a_person_changed_since_stays(server, board_factory, profile, change, values):
     helpers.connect(server, board_factory(machine="toolchanger"))
-    command(server, "fix_profile")
+    assert command(server, "fix_profile", **values).status_code == 204
+    assert extruder(server)["count"] == 11
     changed = {**extruder(server), **change}
     patch_extruder(server, changed)
     assert command(server, "restore_settings").status_code == 204
     assert extruder(server) == changed
 
 
-def test_profile_raised_twice_goes_back_to_the_first(server, board_factory, profile):
+@pytest.mark.parametrize("values", [{}, {"fields": ["extruder.count"]}], ids=["raised", "written"])
+def test_profile_raised_twice_goes_back_to_the_first(server, board_factory, profile, values):
     helpers.connect(server, board_factory(machine="idex"))
-    command(server, "fix_profile")
+    command(server, "fix_profile", **values)
     assert extruder(server)["count"] == 3
     helpers.connect(server, board_factory(machine="toolchanger"))
     command(server, "fix_profile")
     assert extruder(server)["count"] == 11
     command(server, "restore_settings")
     assert extruder(server) == profile
+
+
+def differing(server):
+    response = server.get("/plugin/rrfmodel/setup")
+    assert response.status_code == 200, response.text
+    return [row["field"] for row in response.json()["profile"]]
+
+
+@pytest.mark.parametrize("machine", ["cnc", "delta", "toolchanger"])
+def test_nothing_differs_once_it_is_written(server, board_factory, machine):
+    helpers.connect(server, board_factory(machine=machine))
+    before = server.get(PROFILE).json()
+    fields = differing(server)
+    assert fields
+    assert command(server, "fix_profile", fields=fields).status_code == 204
+    assert differing(server) == []
+    assert command(server, "restore_settings").status_code == 204
+    assert server.get(PROFILE).json() == before
+
+
+def test_offsets_that_a_shared_nozzle_has_not_come_back(server, board_factory, profile):
+    board = board_factory(machine="idex")
+    for tool in helpers.own_value(board, "tools"):
+        board.board.execute(f"M563 P{tool['number']} D0 H1", channel="http")
+    helpers.connect(server, board)
+    patch_extruder(server, {"count": 3, "offsets": [[0.0, 0.0], [18.0, 0.0], [0.0, 7.0]]})
+    before = extruder(server)
+    assert command(server, "fix_profile", fields=["extruder.sharedNozzle"]).status_code == 204
+    assert extruder(server)["sharedNozzle"] is True
+    assert extruder(server)["offsets"] == [[0.0, 0.0]]
+    command(server, "restore_settings")
+    assert extruder(server) == before
+
+
+def test_file_of_an_older_version_is_taken_back(server, board_factory, profile):
+    helpers.connect(server, board_factory(machine="idex"))
+    written = server.basedir / "data" / "rrfmodel" / "changed_profiles.json"
+    written.write_text('{"_default": {"old": 1, "new": 3}}', encoding="utf-8")
+    patch_extruder(server, {"count": 3, "offsets": [[0.0, 0.0]] * 3})
+    command(server, "restore_settings")
+    assert extruder(server) == profile
+    assert not written.exists()
 
 
 def test_unknown_command(server):

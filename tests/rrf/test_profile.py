@@ -81,7 +81,7 @@ def test_what_is_not_known_is_left_out(model):
     assert "extruder.count" not in profile_values(model)
 
 
-@pytest.mark.parametrize("name", ["delta", "Rotary delta", "Hangprinter"])
+@pytest.mark.parametrize("name", ["delta", "linearDelta", "Rotary delta", "Hangprinter"])
 def test_round_machines(name):
     move = {"axes": axes((-85, 85), (-85, 85), (-0.5, 200)), "kinematics": {"name": name}}
     values = profile_values({"move": move})
@@ -92,6 +92,24 @@ def test_round_machines(name):
 def test_a_router_goes_down_from_zero():
     values = profile_values({"move": {"axes": axes((0, 600), (0, 400), (-120, 0))}})
     assert values["volume.height"] == 120
+    # the box is never smaller than size and origin make it: OctoPrint widens it without a word
+    box = values["volume.custom_box"]
+    assert (box["z_min"], box["z_max"]) == (-120, 120)
+
+
+def test_box_around_an_origin_beside_the_middle():
+    values = profile_values({"move": {"axes": axes((-100.5, 100), (-90, 90), (-1, 150))}})
+    box = values["volume.custom_box"]
+    assert values["volume.width"] == 200.5
+    assert (box["x_min"], box["x_max"], box["z_min"]) == (-100.5, 100.25, -1)
+
+
+@pytest.mark.parametrize("long", "XYZ")
+def test_a_volume_that_a_host_refuses_is_left_out(long):
+    limits = [(0, 10_000 if letter == long else 300) for letter in "XYZ"]
+    assert profile_values({"move": {"axes": axes(*limits, speed=6000)}}) == {
+        f"axes.{letter}.speed": 6000 for letter in "xyz"
+    }
 
 
 def test_more_extruders_than_a_host_takes_are_left_out():
