@@ -16,8 +16,13 @@ MOST_KEPT = 50
 
 MOST_PAGES = 100
 
-LONGEST = 100
-"""Longest path that is asked for (3.5 RepRapFirmware.h, MaxFilenameLength, is 120)."""
+LONGEST = 120
+"""Longest path that the firmware takes, in bytes (3.5 Configuration.h, MaxFilenameLength)."""
+
+ATTEMPTS = 3
+"""Times that the board is asked: an answer may be lost, or there be no room for it."""
+
+PAUSE_SECONDS = 0.3
 
 NO_VOLUME = 1
 NO_FOLDER = 2
@@ -26,6 +31,16 @@ NO_FOLDER = 2
 
 class NotListed(Exception):
     """The board has no such list; says the status and the sentence."""
+
+
+async def patiently(ask, request):
+    """Return the answer to a request, asked for again where the board gave none."""
+    for _ in range(ATTEMPTS - 1):
+        try:
+            return await asyncio.wrap_future(ask(request))
+        except RuntimeError:
+            await asyncio.sleep(PAUSE_SECONDS)
+    return await asyncio.wrap_future(ask(request))
 
 
 class Folders:
@@ -59,7 +74,7 @@ class Folders:
         changes = self._changes()
         found, first = [], 0
         for _ in range(MOST_PAGES):
-            page = await asyncio.wrap_future(self._ask(ListRequest(path, first)))
+            page = await patiently(self._ask, ListRequest(path, first))
             if page.error == NO_VOLUME:
                 raise NotListed(409, gettext("The machine has no card there. Put one in."))
             if page.error:
@@ -85,8 +100,8 @@ class Folders:
 
 def refusal_of(path):
     """Return why a folder can't be asked for, ``None`` where it can."""
-    if not path or len(path) > LONGEST:
-        return gettext("The path has to have 1 to 100 characters.")
+    if not path.strip() or len(path.encode("utf-8")) > LONGEST:
+        return gettext("The path has to have 1 to 120 bytes.")
     if not path.isprintable() or any(letter in path for letter in '";{}'):
         return gettext("The path may hold no quotes, semicolons, braces or control characters.")
     return None

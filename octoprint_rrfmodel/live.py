@@ -40,10 +40,14 @@ class LiveQuestions:
 
     def refusal_of_the_card(self):
         """Return why nothing can be asked about the card now, ``None`` where it can."""
+        return self.refusal_for_a_print() or self.refusal()
+
+    def refusal_for_a_print(self):
+        """Return why a print keeps the card from being asked about, ``None`` where none does."""
         if self._bridge.is_streaming_a_print():
             # reading a card takes its time, and the print's lines would wait
             return gettext("OctoPrint prints. Look at the machine's card afterwards.")
-        return self.refusal()
+        return None
 
     def refusal(self):
         """Return why the printer can't be asked now, ``None`` where it can."""

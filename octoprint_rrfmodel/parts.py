@@ -33,6 +33,7 @@ from .simulated_port import SimulatedPort
 from .status import PluginStatus
 from .tags import POLL_TAG
 from .terminal import TerminalFilter
+from .thumbnails import Thumbnails
 from .unsendable import UnsendableCommands
 from .worker import Worker
 
@@ -183,6 +184,10 @@ class Parts:
         """Keep what the firmware says of itself, and find out whether it is RepRapFirmware."""
         self.status.reported(data)
         self.bridge.on_firmware_info(comm, firmware_name, data)
+
+    def thumbnails(self):
+        """Return what fetches pictures, for Tornado's loop."""
+        return Thumbnails(self.questions, self._model)
 
     ##~~ what the parts ask of each other
 

@@ -13,6 +13,7 @@ from .live import LiveModelHandler
 from .parts import Parts
 from .protection import DISABLED_PLUGIN
 from .settings import DEFAULTS, VERSION
+from .thumbnails import ThumbnailHandler
 
 
 class RrfModelPlugin(
@@ -144,6 +145,7 @@ class RrfModelPlugin(
         return [
             (r"/model/live", LiveModelHandler, live),
             (r"/files", FolderHandler, {**live, "folders": folders}),
+            (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": self.parts.thumbnails()}),
             *self._interfaces.routes(app),
         ]
 

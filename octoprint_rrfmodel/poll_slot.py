@@ -4,9 +4,8 @@ import collections
 import concurrent.futures
 import threading
 
-from .rrf.follower import answers
-from .rrf.line import NO_BUFFERS
-from .rrf.reply import MalformedReply, ModelReply, decode, decode_page
+from .rrf.asked import answer_to
+from .rrf.reply import MalformedReply
 from .rrf.request import ListRequest, ModelRequest
 
 MOST_QUERIES = 4
@@ -66,7 +65,7 @@ class Queries:
         return self.ask_for(ModelRequest(key, flags))
 
     def ask_for(self, request):
-        """Return a future of a ``ModelReply``, of a ``FolderPage`` for a ``ListRequest``."""
+        """Return a future of what ``rrf.asked`` makes of the answer."""
         future = concurrent.futures.Future()
         with self._lock:
             if self._is_open and len(self._waiting) >= MOST_QUERIES:
@@ -95,27 +94,13 @@ def fail(future, reason):
         future.set_exception(RuntimeError(reason))
 
 
-NO_ROOM = "the printer had no room for this answer"
-
-
 def answer_query(poll, text):
     """Give a reply to who asked; return whether it is the answer."""
     try:
-        if text == NO_BUFFERS:
-            fail(poll.query, NO_ROOM)
-        elif poll.lists_a_folder:
-            page = decode_page(text)
-            if page.folder.rstrip("/") != poll.request.folder or page.first != poll.request.first:
-                return False
-            poll.query.set_result(page)
-        else:
-            reply = decode(text)
-            if not isinstance(reply, ModelReply):
-                fail(poll.query, NO_ROOM)
-            elif not answers(reply, poll.request):
-                return False
-            else:
-                poll.query.set_result(reply)
+        answer = answer_to(poll.request, text)
     except MalformedReply as error:
         fail(poll.query, str(error))
-    return True
+        return True
+    if answer is not None:
+        poll.query.set_result(answer)
+    return answer is not None

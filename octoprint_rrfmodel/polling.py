@@ -7,7 +7,7 @@ import logging
 import re
 
 from .poll_slot import GONE, Poll, Queries, answer_query, fail
-from .rrf.line import LIST_REPLY, NO_BUFFERS
+from .rrf.line import NO_BUFFERS
 from .rrf.machine import Machine
 from .rrf.pace import Pace
 from .rrf.reply import MalformedReply, decode_page
@@ -158,7 +158,7 @@ class Poller:
         poll = self._poll
         if poll is None or poll.sent_at is None or poll.answered:
             return
-        if poll.lists_a_folder != text.startswith(LIST_REPLY) and text != NO_BUFFERS:
+        if text != NO_BUFFERS and not text.startswith(poll.request.begins):
             return
         if poll.is_card:
             self._take_page(poll, text)

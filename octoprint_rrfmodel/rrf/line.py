@@ -15,9 +15,22 @@ NO_BUFFERS = '{"err":-1}'
 STATUS_REPLY = '{"status":'
 CONFIG_REPLY = '{"axisMins":'
 LIST_REPLY = '{"dir":'
+FILE_REPLY = '{"err":0,"fileName":'
+NO_FILE_REPLY = '{"err":1'
+THUMBNAIL_REPLY = '{"thumbnail":'
 
-REPLY_STARTS = (MODEL_REPLY, STATUS_REPLY, NO_BUFFERS, CONFIG_REPLY, LIST_REPLY)
-"""How M409, M408 S0..S4, a reply short of buffers, M408 S5, and M20 S2 and S3 begin."""
+REPLY_STARTS = (
+    MODEL_REPLY,
+    STATUS_REPLY,
+    NO_BUFFERS,
+    CONFIG_REPLY,
+    LIST_REPLY,
+    FILE_REPLY,
+    NO_FILE_REPLY,
+    THUMBNAIL_REPLY,
+)
+"""How M409, M408 S0..S4, a reply short of buffers, M408 S5, M20 S2 and S3, M36, M36 of no file, and
+M36.1 begin."""
 
 _NOT_INSIDE = r'(?<!":)(?<!":\[)(?<!\},)'
 """Not behind what an object stands behind in another JSON: M36 and M20 answer with some, too."""

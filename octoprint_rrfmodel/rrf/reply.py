@@ -98,7 +98,7 @@ def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
         return NoBuffers()
     if not text.isascii() and _FOREIGN_NAME.search(text):
         raise MalformedReply(f"a member with a broken name: {text[:80]!r}")
-    members = _members(text)
+    members = members_of(text)
     if not text.startswith(MODEL_REPLY):
         return StatusReply(members)
     key, flags = members.get("key"), members.get("flags")
@@ -120,7 +120,7 @@ def foreign_strings(text: str) -> tuple[str, ...]:
 
 def decode_page(text: str) -> FolderPage:
     """Return what an answer to ``M20 S3`` says; raise ``MalformedReply`` if it can't be read."""
-    members = _members(text)
+    members = members_of(text)
     folder, files = members.get("dir"), members.get("files", [])
     first, following = members.get("first", 0), members.get("next", 0)
     error = members.get("err", 0)
@@ -148,7 +148,8 @@ def _entries(files: list[dict[str, Any]]) -> Iterator[FolderEntry]:
         )
 
 
-def _members(text: str) -> dict[str, Any]:
+def members_of(text: str) -> dict[str, Any]:
+    """Return the members of a reply; raise ``MalformedReply`` for a text that is no object."""
     decoder = _CAREFUL_DECODER if _HUGE.search(text) else _DECODER
     try:
         try:

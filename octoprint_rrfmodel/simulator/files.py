@@ -7,7 +7,6 @@ what OctoPrint waits for: sizes are missing, and no "SD card ok" is ever said.
 from __future__ import annotations
 
 import hashlib
-import re
 from typing import TYPE_CHECKING, Any
 
 from .card import Entry
@@ -22,7 +21,8 @@ if TYPE_CHECKING:
 
 LIST_BYTES = 2600
 """Text length at which a listing goes on with ``next``: the buffers aren't endless."""
-THUMBNAIL_BYTES = 1200
+THUMBNAIL_BYTES = 1024
+"""Letters of a thumbnail in one answer to M36.1 (3.5 RepRap.cpp)."""
 NOT_MOUNTED, NO_FOLDER = 1, 2
 
 
@@ -186,22 +186,30 @@ def _information(board: Core, info: dict[str, Any]) -> str:
 
 
 def _thumbnail(board: Core, command: Command) -> Outcome:
-    """A piece of a thumbnail's text (3.4 and later)."""
+    """A piece of a thumbnail's text, whole lines as far as there is room (3.5 RepRap.cpp,
+    GetThumbnailResponse; 3.4 and later)."""
     name, start = command.string("P") or "", command.integer("S", 0) or 0
     content = board.card.read(board.card.path_of(name))
+    head = f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},'
     if content is None:
-        return Reply(
-            f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},"err":1}}}}\n', Kind.LONG
-        )
-    text = content[start:].decode("latin-1").partition("; thumbnail")[0]
-    joined = "".join(line.lstrip("; ") for line in text.splitlines(True))
-    data = re.sub(r"\s", "", joined)[:THUMBNAIL_BYTES]
-    following = 0 if len(re.sub(r"\s", "", joined)) <= THUMBNAIL_BYTES else start + len(data)
-    return Reply(
-        f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},"data":"{data}",'
-        f'"next":{following},"err":0}}}}\n',
-        Kind.LONG,
-    )
+        return Reply(f'{head}"err":1}}}}\n', Kind.LONG)
+    data, position, error = "", start, 0
+    while len(data) < THUMBNAIL_BYTES:
+        line = content[position:].split(b"\n", 1)[0]
+        if position >= len(content):
+            position, error = 0, 1
+            break
+        before, position = position, position + len(line) + 1
+        letters = line.rstrip(b"\r").lstrip(b"; \t")
+        if b" " in letters:
+            # the end, or what can't be base64
+            position = 0
+            break
+        room = THUMBNAIL_BYTES - len(data)
+        if len(letters) > room:
+            position = before + line.index(letters) + room
+        data += letters[:room].decode("latin-1")
+    return Reply(f'{head}"data":"{data}","next":{position},"err":{error}}}}}\n', Kind.LONG)
 
 
 def file_hash(board: Core, channel: Channel, command: Command) -> Outcome:

@@ -120,4 +120,9 @@ def test_every_route_is_described(server):
         for name in dir(Endpoints)
         for rule, _ in getattr(getattr(Endpoints, name), "_blueprint_rules", {}).get(name, ())
     }
-    assert rules | {"/plugin/rrfmodel/model/live", "/api/plugin/rrfmodel"} == set(described)
+    tornados = {
+        "/plugin/rrfmodel/model/live",
+        "/plugin/rrfmodel/files",
+        "/plugin/rrfmodel/thumbnail",
+    }
+    assert rules | tornados | {"/api/plugin/rrfmodel"} == set(described)

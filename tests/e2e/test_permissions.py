@@ -24,6 +24,8 @@ ENDPOINTS = [
     ("GET", f"{BASE}/history", None, READ, 200),
     ("GET", f"{BASE}/meanings", None, READ, 200),
     ("GET", f"{BASE}/files?path=0:/macros", None, READ, 200),
+    # nobody has put a picture there
+    ("GET", f"{BASE}/thumbnail?path=square.gcode", None, READ, 404),
     ("GET", f"{BASE}/setup", None, SETTINGS, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),

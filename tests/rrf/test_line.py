@@ -20,6 +20,9 @@ CONFIG = '{"axisMins":[0.00,0.00],"firmwareDate":"2020-01-03b3", "sysdir":"0:/sy
 NO_ROOM = '{"err":-1}'
 NAN = '{"status":"I","pos":[nan,-nan,inf,0.000]}'
 FOLDER = '{"dir":"0:/","files":[{"type":"f","name":"{\\"key\\":"}],"next":0}'
+FILE = '{"err":0,"fileName":"a.g","customInfo":{"key":"x","status":1}}'
+NO_FILE = '{"err":1,"fileName":"a.g"}'
+PIECE = '{"thumbnail":{"fileName":"a.g","offset":5,"data":"QUJD","next":0,"err":0}}'
 SPOILT = '{"status":"I","machine":[150.000 ,150.005.000],"time":1}'
 UNDER_VOLTAGE = "Warning: VIN under-voltage event (11.0V)"
 
@@ -33,6 +36,10 @@ FOUND = {
     "S2 to S4": (STATUS, STATUS, ""),
     "S5": (CONFIG, CONFIG, ""),
     "folder": (FOLDER + "\n", FOLDER, ""),
+    "file information with a slicer's members": (FILE + "\n", FILE, ""),
+    "file information, ok behind": (FILE + "ok", FILE, "ok"),
+    "file that isn't there": (NO_FILE, NO_FILE, ""),
+    "piece of a thumbnail, glued before": (UNDER_VOLTAGE + PIECE, PIECE, UNDER_VOLTAGE),
     "no buffers": (NO_ROOM + "\n", NO_ROOM, ""),
     "nan": (NAN, NAN, ""),
     "glued before": (UNDER_VOLTAGE + LIVE + "\n", LIVE, UNDER_VOLTAGE),
@@ -79,11 +86,6 @@ NOT_FOUND = {
     "braces in a text": "echo: {move.axes[0]} is {12}",
     "quotes in a text": 'M118 S"{""key"": 1}" not found',
     "start cut off": LIVE[5:],
-    "file information": '{"err":0,"fileName":"a.g","size":12,"filament":[45914.7]}',
-    "file that isn't there": '{"err":1,"fileName":"a.g"}',
-    "file information with a slicer's members": (
-        '{"err":0,"fileName":"a.g","customInfo":{"key":"x","status":1}}'
-    ),
     "slicer's member called status": '{"err":0,"customInfo":{"status":"x"}}',
     "card": '{"SDinfo":{"slot":0,"present":1}}',
     "panel's message": '{"seq":3,"resp":"{\\"key\\":1}"}',
