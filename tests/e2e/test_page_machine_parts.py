@@ -96,7 +96,7 @@ def test_power(page, view, server, board):
     wait_board(server, board, "state.atxPower", True)
     wait_text(part(view, "power-state"), "on")
     part(view, "power-off").click()
-    page.locator(".modal:visible").get_by_role("button", name="Switch off").click()
+    page.locator(".modal:visible").get_by_text("Switch off", exact=True).click()
     wait_board(server, board, "state.atxPower", False)
     board.board.data["state"].update(atxPower=None, atxPowerPort=None)
     board.board.bump("state")

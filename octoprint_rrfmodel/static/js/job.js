@@ -61,6 +61,19 @@ $(function () {
             modified: () => String(file().lastModified || "").replace("T", " ")
         });
 
+        //~~ its picture
+
+        self.hasPicture = ko.observable(false);
+        self.picture = ko.pureComputed(function () {
+            const has = list(file().thumbnails).length > 0;
+            if (!has || !self.path()) return null;
+            const query = $.param({path: self.path()});
+            return OctoPrint.getBlueprintUrl("rrfmodel") + "thumbnail?" + query;
+        });
+        self.pictureCame = () => self.hasPicture(true);
+        self.pictureFailed = () => self.hasPicture(false);
+        self.picture.subscribe(self.pictureFailed);
+
         //~~ how far it is
 
         const fraction = ko.pureComputed(function () {
