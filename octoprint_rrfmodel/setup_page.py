@@ -14,7 +14,7 @@ class Setup:
 
     ``settings`` are ``OctoPrintSettings``, ``profile`` is the ``PrinterProfile``, ``own()`` are
     the plugin's settings. ``is_ready()`` says whether the machine has told its whole model,
-    ``prints()`` whether OctoPrint or the machine prints.
+    ``prints()`` whether OctoPrint or the machine has a print, paused or not.
     """
 
     def __init__(self, settings, profile, own, is_ready, prints):
@@ -43,18 +43,22 @@ class Setup:
         )
 
     def fix_profile(self, parameters):
-        """Write the fields that are named, or raise the number of extruders where none is."""
-        fields = parameters.get("fields")
-        if fields is None and not self._prints():
-            self._profile.fix()
-            return None
+        """Write the fields that are named, or all; else only raise the number of extruders."""
+        fields, takes_all = parameters.get("fields"), parameters.get("all", False)
         is_list = isinstance(fields, list) and all(isinstance(name, str) for name in fields)
         if fields is not None and not is_list:
             return 400, command_text("not_fields", {})
+        if not isinstance(takes_all, bool):
+            return 400, command_text("not_a_truth_value", {"parameter": "all"})
         if self._prints():
             return 409, gettext("Something is being printed. Change the profile afterwards.")
+        if fields is None and not takes_all:
+            self._profile.fix()
+            return None
         if not self._is_ready():
             return 409, gettext("The machine has not told its whole model yet. Try again soon.")
+        if takes_all:
+            fields = [row["field"] for row in self._profile.differences()]
         unknown = self._profile.write(fields)
         if unknown:
             return 400, command_text("unknown_field", {"field": unknown[0][:40]})

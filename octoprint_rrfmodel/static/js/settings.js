@@ -91,26 +91,39 @@ $(function () {
                         .map((row) => row.field)
                 })
                 .done(self.requestData);
+        self.restore = () => core.command("restore_settings").done(self.requestData);
 
         self.onSettingsShown = self.requestData;
 
         //~~ the first-run wizard
 
+        // what reads the page aloud goes on at the heading
+        const focusStep = () => dialog.find("h4:visible").trigger("focus");
+        const go = (step) => () => {
+            self.step(step);
+            focusStep();
+        };
+
         self.isStep = (name) => ko.pureComputed(() => self.step() === name);
-        self.next = () => self.step(STEPS[1]);
-        self.back = () => self.step(STEPS[0]);
+        self.next = go(STEPS[1]);
+        self.back = go(STEPS[0]);
         self.later = () => dialog.modal("hide");
         self.done = function () {
             dialog.modal("hide");
             core.command("wizard_done");
         };
 
+        const isDue = ko.pureComputed(() => !!core.status().first_run && core.maySet());
+        const isBeside = () => $(".modal:visible").length > 0;
+
         let wasOffered = false;
-        const offer = function (status) {
-            if (!status.first_run || !core.maySet() || wasOffered) return;
-            // once a page: who wants it later has closed it
-            wasOffered = true;
+        const offer = function () {
+            if (wasOffered || !isDue() || isBeside()) return;
             self.requestData().done(function () {
+                const isAsNeeded = self.isComplete() && !self.fields().length;
+                if (wasOffered || !isDue() || isBeside() || isAsNeeded) return;
+                // once a page: who wants it later has closed it
+                wasOffered = true;
                 self.step(STEPS[0]);
                 dialog.modal({keyboard: true});
             });
@@ -118,9 +131,11 @@ $(function () {
 
         self.onAllBound = function () {
             dialog = $("#rrfmodel_wizard_dialog");
-            dialog.on("shown", () => dialog.find("button:visible").first().focus());
-            core.status.subscribe(offer);
-            offer(core.status());
+            dialog.on("shown", focusStep);
+            // somebody is at another dialog: it comes after that
+            $(document).on("hidden", ".modal", offer);
+            isDue.subscribe(offer);
+            offer();
         };
     }
 
