@@ -145,6 +145,8 @@ def test_settings_are_set_and_taken_back(page, server, page_errors):
     part(pane, "write-profile").click()
     expect(part(pane, "profile-fits")).to_be_visible()
     assert server.get(PROFILE).json() != before
+    # OctoPrint doesn't ask whose settings are to stay
+    expect(page.locator("#settings_dialog_update_detected")).to_be_hidden()
     part(pane, "restore").click()
     wait_text(part(pane, "needed-state").last, "to be set")
     expect(part(pane, "difference").first).to_be_visible()

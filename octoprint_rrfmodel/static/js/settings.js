@@ -81,7 +81,25 @@ $(function () {
             return OctoPrint.plugins.rrfmodel.getSetup().done(self.fromSetup);
         };
 
-        self.fixSettings = () => core.command("fix_settings").done(self.requestData);
+        // OctoPrint 1.11 finds changes of its own in its open dialog and would ask whose are to
+        // stay, although it writes only what somebody has changed there
+        let isOwnChange = false;
+        let isBehind = false;
+        self.onSettingsPreventRefresh = function () {
+            const prevents = isOwnChange;
+            isOwnChange = false;
+            return prevents;
+        };
+        self.onSettingsHidden = function () {
+            if (isBehind) core.settings.requestData();
+            isOwnChange = isBehind = false;
+        };
+        const changeSettings = function (name) {
+            isOwnChange = isBehind = $("#settings_dialog").is(":visible");
+            return core.command(name).done(self.requestData);
+        };
+
+        self.fixSettings = () => changeSettings("fix_settings");
         self.writeProfile = () =>
             core
                 .command("fix_profile", {
@@ -91,7 +109,7 @@ $(function () {
                         .map((row) => row.field)
                 })
                 .done(self.requestData);
-        self.restore = () => core.command("restore_settings").done(self.requestData);
+        self.restore = () => changeSettings("restore_settings");
 
         self.onSettingsShown = self.requestData;
 
