@@ -54,8 +54,8 @@ class CommBridge:
         self._sent = sent
         self._clock = clock
         self._comm = None
-        self._is_rrf = False
         self._awaited = None
+        self._asks_of_a_file = False
         self.tool_command_at = 0.0
         """When OctoPrint last sent a command that selects a tool."""
         self.target_command_at = 0.0
@@ -78,12 +78,11 @@ class CommBridge:
     @property
     def is_rrf(self):
         """Whether the printer of this connection told that it runs RepRapFirmware."""
-        return self._is_rrf
+        return self._comm is not None
 
     def forget(self):
         """Know no printer: the connection is gone or not yet made."""
         self._comm = None
-        self._is_rrf = False
         self._awaited = None
         self._targets = {}
         self._surplus = SurplusOk()
@@ -101,7 +100,6 @@ class CommBridge:
             return
         self.forget()
         if "reprapfirmware" in (firmware_name or "").lower():
-            self._is_rrf = True
             self._comm = comm
             self._notify("identified")
 
@@ -125,7 +123,7 @@ class CommBridge:
                 return self._text(line)
             return line
         found = find_reply(line)
-        if found is None:
+        if found is None or (found.is_of_a_file and not self._asks_of_a_file):
             return line
         self._notify("reply", found.reply)
         if not found.rest:
@@ -219,6 +217,7 @@ class CommBridge:
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
             count_ok(comm)
         self._awaited = gcode
+        self._asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
         self._surplus.sending(cmd, gcode)
         if gcode in TARGETING or cmd in self._targets:
             self.target_command_at = self._clock()

@@ -6,7 +6,7 @@ import threading
 
 from .rrf.asked import answer_to
 from .rrf.reply import MalformedReply
-from .rrf.request import ListRequest, ModelRequest
+from .rrf.request import FileRequest, ListRequest, ModelRequest, PieceRequest
 
 MOST_QUERIES = 4
 """Questions to the printer that may wait for the one poll slot."""
@@ -27,7 +27,7 @@ class Poll:
         self.sent_at = None
         self.status_sent = False
         self.answered = False
-        self.lists_a_folder = isinstance(request, ListRequest)
+        self.is_about_the_card = isinstance(request, (ListRequest, FileRequest, PieceRequest))
 
     def is_over(self):
         """Return whether the next poll may leave."""

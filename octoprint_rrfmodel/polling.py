@@ -192,15 +192,15 @@ class Poller:
         self._finish_if_over()
 
     def card_refused(self):
-        """Note that the board would not list a folder."""
+        """Note that the board would not answer a question about the card."""
         poll = self._poll
-        if poll is None or not poll.lists_a_folder or poll.sent_at is None or poll.answered:
+        if poll is None or not poll.is_about_the_card or poll.sent_at is None or poll.answered:
             return
         poll.answered = True
         if poll.is_card:
             self._card.failed()
         else:
-            fail(poll.query, "the printer would not list that folder")
+            fail(poll.query, "the printer refused")
         self._finish_if_over()
 
     ##~~ the poll slot

@@ -17,7 +17,7 @@ WORDS = (
     ("fault", r"Filament error on"),
     ("fault", r"^Emergency Stop!"),  # 3.5 GCodes2.cpp, M112
     ("fault", r"VIN under-voltage"),  # 3.5 Platform.cpp:1396
-    ("card", r"^Error: .*M20: "),  # the list of a folder was refused, as by a halted board
+    ("card", r"^Error: .*M(?:20|36|36\.1): "),  # a question about the card, as by a halted board
     ("silence", r"\A\Z"),  # what a host reads when its patience is over, as after a lost ok
 )
 """What is told, and a pattern of a line that tells it."""

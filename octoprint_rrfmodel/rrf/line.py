@@ -19,15 +19,15 @@ FILE_REPLY = '{"err":0,"fileName":'
 NO_FILE_REPLY = '{"err":1'
 THUMBNAIL_REPLY = '{"thumbnail":'
 
+FILE_REPLIES = (FILE_REPLY, NO_FILE_REPLY, THUMBNAIL_REPLY)
+
 REPLY_STARTS = (
     MODEL_REPLY,
     STATUS_REPLY,
     NO_BUFFERS,
     CONFIG_REPLY,
     LIST_REPLY,
-    FILE_REPLY,
-    NO_FILE_REPLY,
-    THUMBNAIL_REPLY,
+    *FILE_REPLIES,
 )
 """How M409, M408 S0..S4, a reply short of buffers, M408 S5, M20 S2 and S3, M36, M36 of no file, and
 M36.1 begin."""
@@ -63,6 +63,11 @@ class Found(NamedTuple):
     """The JSON text, or as much of it as has come."""
     rest: str
     """The line without it, stripped; a glued ``ok`` comes first. Empty for a whole line."""
+
+    @property
+    def is_of_a_file(self) -> bool:
+        """Whether it answers M36 or M36.1, which others than the plugin ask too."""
+        return self.reply.startswith(FILE_REPLIES)
 
 
 def find_reply(line: str) -> Found | None:

@@ -2,6 +2,7 @@
 
 import base64
 import struct
+import time
 import zlib
 
 import pytest
@@ -132,3 +133,48 @@ def test_of_the_file_being_printed_the_model_tells(server, board):
     questions = asked(board, "0:/gcodes/printed.gcode")
     assert questions
     assert not [line for line in questions if line.startswith("M36 ")]
+
+
+ASKS = """def received(comm, line, *args, **kwargs):
+    if "fileName" in line:
+        open(r"{path}", "a").write(line.strip() + "\\n")
+    return line
+
+
+__plugin_name__ = "Reads M36"
+__plugin_pythoncompat__ = ">=3,<4"
+__plugin_hooks__ = {{"octoprint.comm.protocol.gcode.received": (received, 50)}}
+"""
+
+
+def test_who_asks_for_a_file_gets_the_answer(module_server_factory, board, tmp_path):
+    heard = tmp_path / "heard.txt"
+    reader = tmp_path / "reads_m36.py"
+    reader.write_text(ASKS.format(path=heard), encoding="utf-8")
+    server = module_server_factory(plugin_files=(reader,))
+    helpers.connect(server, board)
+    helpers.wait_ready(server)
+    server.commands('M36 "0:/gcodes/none.gcode"')
+    server.wait_for(
+        lambda: heard.exists() and "fileName" in heard.read_text(encoding="utf-8"),
+        10,
+        "the answer to reach another plugin",
+    )
+    # and those to the plugin's own questions don't
+    before = heard.read_text(encoding="utf-8")
+    assert "none.gcode" in before
+    answer = server.get(THUMBNAIL, params={"path": "0:/gcodes/qoi.gcode"})
+    assert answer.status_code == 200, answer.text
+    assert heard.read_text(encoding="utf-8") == before
+
+
+def test_a_question_that_the_board_refuses_is_over_at_once(module_server_factory, board_factory):
+    board = board_factory()
+    server = module_server_factory()
+    helpers.connect(server, board)
+    helpers.wait_ready(server)
+    board.board.inject("halted")
+    started = time.monotonic()
+    answer = server.get(THUMBNAIL, params={"path": "0:/gcodes/square.gcode"})
+    assert answer.status_code in (409, 504), answer.text
+    assert time.monotonic() - started < 9
