@@ -5,8 +5,7 @@ import time
 
 from flask_babel import gettext
 
-from .live import WAIT_SECONDS, LiveModelHandler
-from .poll_slot import TooManyQueries
+from .live import WAIT_SECONDS, LiveModelHandler, Refused
 from .rrf.request import ListRequest
 
 KEPT_SECONDS = 20.0
@@ -19,34 +18,15 @@ MOST_PAGES = 100
 LONGEST = 120
 """Longest path that the firmware takes, in bytes (3.5 Configuration.h, MaxFilenameLength)."""
 
-ATTEMPTS = 3
-"""Times that the board is asked: an answer may be lost, or there be no room for it."""
-
-PAUSE_SECONDS = 0.3
-
 NO_VOLUME = 1
 NO_FOLDER = 2
 """Values of ``err`` (3.5 RepRap.cpp:1865)."""
 
 
-class NotListed(Exception):
-    """The board has no such list; says the status and the sentence."""
-
-
-async def patiently(ask, request):
-    """Return the answer to a request, asked for again where the board gave none."""
-    for _ in range(ATTEMPTS - 1):
-        try:
-            return await asyncio.wrap_future(ask(request))
-        except RuntimeError:
-            await asyncio.sleep(PAUSE_SECONDS)
-    return await asyncio.wrap_future(ask(request))
-
-
 class Folders:
     """Asks for folders, page by page, through the slot of the polls; on Tornado's loop only.
 
-    ``ask(request)`` returns a future of a page. ``changes()`` is a number that is another after
+    ``await ask(request)`` gives a page. ``changes()`` is a number that is another after
     each change of the card.
     """
 
@@ -74,11 +54,11 @@ class Folders:
         changes = self._changes()
         found, first = [], 0
         for _ in range(MOST_PAGES):
-            page = await patiently(self._ask, ListRequest(path, first))
+            page = await self._ask(ListRequest(path, first))
             if page.error == NO_VOLUME:
-                raise NotListed(409, gettext("The machine has no card there. Put one in."))
+                raise Refused(409, gettext("The machine has no card there. Put one in."))
             if page.error:
-                raise NotListed(404, gettext("The machine has no such folder."))
+                raise Refused(404, gettext("The machine has no such folder."))
             found.extend(page.entries)
             if not page.entries or page.next <= first:
                 break
@@ -126,15 +106,7 @@ class FolderHandler(LiveModelHandler):
         if reason:
             self._refuse(409, reason)
             return
-        try:
-            entries = await asyncio.wait_for(self._folders.entries(path), WAIT_SECONDS)
-        except TooManyQueries:
-            self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
-        except NotListed as error:
-            self._refuse(*error.args)
-        except asyncio.TimeoutError:
-            self._refuse(504, gettext("The printer did not answer within ten seconds."))
-        except RuntimeError as error:
-            self._refuse(504, gettext("The printer gave no answer: %(error)s.", error=error))
-        else:
+        question = asyncio.wait_for(self._folders.entries(path), WAIT_SECONDS)
+        entries = await self._answer_of(question)
+        if entries is not None:
             self.write({"path": path, "entries": entries})

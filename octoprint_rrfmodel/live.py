@@ -13,6 +13,15 @@ from .poll_slot import TooManyQueries
 
 WAIT_SECONDS = 10.0
 
+ATTEMPTS = 3
+"""Times that a question about the card is asked: an answer may be lost, or there be no room."""
+
+PAUSE_SECONDS = 0.3
+
+
+class Refused(Exception):
+    """A request that gets no answer; says the status and the sentence."""
+
 
 class LiveQuestions:
     """Hands questions to the poller, as long as the printer can be asked.
@@ -30,9 +39,19 @@ class LiveQuestions:
         """Return a future of the printer's own answer; raise ``TooManyQueries`` when full."""
         return self._poller.query(key, flags)
 
-    def ask_for(self, request):
-        """Return a future of the answer to another request than one for the model."""
-        return self._poller.query_for(request)
+    async def ask_about_the_card(self, request):
+        """Return the answer, asked for again where the board gave none; 409 beside a print."""
+        for attempt in range(1, ATTEMPTS + 1):
+            # one may have begun meanwhile; whatever else is in the way goes by
+            reason = self.refusal_for_a_print()
+            if reason:
+                raise Refused(409, reason)
+            try:
+                return await asyncio.wrap_future(self._poller.query_for(request))
+            except RuntimeError:
+                if attempt == ATTEMPTS:
+                    raise
+            await asyncio.sleep(PAUSE_SECONDS)
 
     def changes_of_the_card(self):
         """Return what is another after each change of the card, as far as the board counts them."""
@@ -93,22 +112,30 @@ class LiveModelHandler(tornado.web.RequestHandler):
         if reason:
             self._refuse(409, reason)
             return
-        try:
-            future = self._questions.ask(key, flags)
-        except TooManyQueries:
-            self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
-            return
-        try:
-            reply = await asyncio.wait_for(asyncio.wrap_future(future), WAIT_SECONDS)
-        except asyncio.TimeoutError:
-            self._refuse(504, gettext("The printer did not answer within ten seconds."))
-        except RuntimeError as error:
-            self._refuse(504, gettext("The printer gave no answer: %(error)s.", error=error))
-        else:
+        reply = await self._answer_of(self._model_reply(key, flags))
+        if reply is not None:
             answer = {"key": reply.key, "flags": reply.flags or flags, "result": reply.result}
             if isinstance(reply.result, list):
                 answer["next"] = reply.next
             self.write(answer)
+
+    async def _model_reply(self, key, flags):
+        future = asyncio.wrap_future(self._questions.ask(key, flags))
+        return await asyncio.wait_for(future, WAIT_SECONDS)
+
+    async def _answer_of(self, question):
+        """Return what comes of a question, ``None`` after telling why nothing does."""
+        try:
+            return await question
+        except TooManyQueries:
+            self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
+        except Refused as error:
+            self._refuse(*error.args)
+        except asyncio.TimeoutError:
+            self._refuse(504, gettext("The printer did not answer in time."))
+        except RuntimeError as error:
+            self._refuse(504, gettext("The printer gave no answer: %(error)s.", error=error))
+        return None
 
     def _argument(self, name):
         """Return an argument as it came; Tornado's own way takes control characters out."""

@@ -140,8 +140,9 @@ class RrfModelPlugin(
         """Return what Tornado serves itself: who waits there holds up nobody."""
         from octoprint.server import app
 
-        live = {"questions": self.parts.questions, "app": app}
-        folders = Folders(self.parts.questions.ask_for, self.parts.questions.changes_of_the_card)
+        questions = self.parts.questions
+        live = {"questions": questions, "app": app}
+        folders = Folders(questions.ask_about_the_card, questions.changes_of_the_card)
         return [
             (r"/model/live", LiveModelHandler, live),
             (r"/files", FolderHandler, {**live, "folders": folders}),

@@ -12,7 +12,7 @@ from .rrf.card import PRINTABLE, ROOT, CardFile, path_of
 from .rrf.gcode import quoted
 from .rrf.operations import Lines
 from .rrf.wording import BEGINNINGS, LIST_BEGINS, LIST_ENDS, reword
-from .sdjob import IS_VERSION_2, PREFIX
+from .sdjob import IS_VERSION_2, PREFIX, is_listed
 
 if IS_VERSION_2:
     from octoprint.plugins.serial_connector.serial_comm import SDFileData
@@ -160,7 +160,9 @@ class SdCard:
     def _situation(self, comm):
         index = self._index
         alias = index.alias_of(self._opening) if index and self._opening else None
-        opened = (PREFIX + alias, index.file_of(alias).size) if alias else None
+        opened = None
+        if alias and is_listed(comm, alias):
+            opened = (PREFIX + alias, index.file_of(alias).size)
         return self._job.situation(comm, index, opened, self._plan.notices_changes)
 
     def _collect(self, comm, line):

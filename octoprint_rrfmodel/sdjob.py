@@ -136,7 +136,7 @@ class SdJob:
         OctoPrint then asks for its progress and takes a position that grows for a print.
         """
         alias = index.alias_of(path) if index else None
-        if alias is None or self._adopted == path:
+        if alias is None or self._adopted == path or not is_listed(comm, alias):
             return ()
         self._adopted = path
         if _is_selected(comm, index, path):
@@ -144,6 +144,15 @@ class SdJob:
         self.allow_opening(comm)
         size = index.file_of(alias).size
         return (f"File opened: {PREFIX}{alias} Size: {size}", "File selected")
+
+
+def is_listed(comm, alias):
+    """Return whether OctoPrint's own list has a file.
+
+    2.0 looks for the file that it is told of in that list, and gives the connection up where it
+    isn't there (connector.py:724).
+    """
+    return PREFIX + alias in comm._sdFiles and comm.isSdReady()
 
 
 def _is_selected(comm, index, path):

@@ -6,9 +6,8 @@ import time
 
 from flask_babel import gettext
 
-from .folders import patiently, refusal_of
-from .live import LiveModelHandler
-from .poll_slot import TooManyQueries
+from .folders import refusal_of
+from .live import LiveModelHandler, Refused
 from .rrf.asked import NoFile
 from .rrf.card import path_of
 from .rrf.request import FileRequest, PieceRequest
@@ -29,10 +28,6 @@ SHOWN_SECONDS = 300
 """How long a page need not ask again."""
 
 
-class NoThumbnail(Exception):
-    """There is no picture to show; says the status and the sentence."""
-
-
 class Thumbnails:
     """Fetches pictures piece by piece through the slot of the polls; on Tornado's loop only.
 
@@ -49,7 +44,7 @@ class Thumbnails:
         self._turn = asyncio.Lock()
 
     async def of(self, path):
-        """Return a file's picture (``rrf.thumbnail.Picture``); raise ``NoThumbnail``.
+        """Return a file's picture (``rrf.thumbnail.Picture``); raise ``Refused``.
 
         Who asks at the same time for the same shares the answer.
         """
@@ -59,21 +54,18 @@ class Thumbnails:
             self._pictures.move_to_end(key)
             return self._shown(self._pictures[key])
         if path not in self._fetching:
-            self._refuse(self._questions.refusal_of_the_card())
+            reason = self._questions.refusal_of_the_card()
+            if reason:
+                raise Refused(409, reason)
             task = asyncio.ensure_future(asyncio.wait_for(self._fetch(path, file), WAIT_SECONDS))
             self._fetching[path] = task
             task.add_done_callback(lambda _: self._fetching.pop(path))
         return self._shown(await asyncio.shield(self._fetching[path]))
 
     @staticmethod
-    def _refuse(reason):
-        if reason:
-            raise NoThumbnail(409, reason)
-
-    @staticmethod
     def _shown(found):
         if found is None:
-            raise NoThumbnail(404, gettext("This file has no picture that can be shown."))
+            raise Refused(404, gettext("This file has no picture that can be shown."))
         return found
 
     def _known(self, path):
@@ -100,9 +92,9 @@ class Thumbnails:
 
     async def _file(self, path):
         changes = self._questions.changes_of_the_card()
-        file = await self._ask(FileRequest(path))
+        file = await self._questions.ask_about_the_card(FileRequest(path))
         if file is NoFile:
-            raise NoThumbnail(404, gettext("The machine has no such file."))
+            raise Refused(404, gettext("The machine has no such file."))
         if len(self._files) >= MOST_FILES:
             self._files.clear()
         self._files[path] = (time.monotonic() + KEPT_SECONDS, changes, file)
@@ -112,18 +104,13 @@ class Thumbnails:
         """Return the picture, ``None`` where what the file has there is none."""
         letters, offset = "", thumbnail.offset
         while len(letters) <= MOST_LETTERS:
-            piece = await self._ask(PieceRequest(path, offset))
+            piece = await self._questions.ask_about_the_card(PieceRequest(path, offset))
             letters += piece.data
             if piece.error or piece.next <= offset:
                 break
             offset = piece.next
         # QOI takes its time in plain Python
         return await asyncio.get_running_loop().run_in_executor(None, picture, letters)
-
-    async def _ask(self, request):
-        # a print may have begun meanwhile; whatever else is in the way goes by
-        self._refuse(self._questions.refusal_for_a_print())
-        return await patiently(self._questions.ask_for, request)
 
     def _keep(self, key, found):
         # that a file has none is worth knowing, too
@@ -150,17 +137,8 @@ class ThumbnailHandler(LiveModelHandler):
         if reason:
             self._refuse(400, reason)
             return
-        try:
-            found = await self._thumbnails.of(path)
-        except TooManyQueries:
-            self._refuse(503, gettext("Four questions wait for the printer. Try again soon."))
-        except NoThumbnail as error:
-            self._refuse(*error.args)
-        except asyncio.TimeoutError:
-            self._refuse(504, gettext("The printer did not answer in time."))
-        except RuntimeError as error:
-            self._refuse(504, gettext("The printer gave no answer: %(error)s.", error=error))
-        else:
+        found = await self._answer_of(self._thumbnails.of(path))
+        if found is not None:
             self.set_header("Content-Type", found.kind)
             self.set_header("X-Content-Type-Options", "nosniff")
             self.set_header("Cache-Control", f"private, max-age={SHOWN_SECONDS}")

@@ -267,6 +267,7 @@ def test_octoprint_follows_the_machine(bench, shown, status, said):
 def test_job_of_the_machine_is_selected_once(bench):
     bench.card.fill()
     bench.list("a b.gcode")
+    bench.hear("Begin file list", "End file list")
     (alias,) = bench.plan.index.files
     bench.status("processing")
     bench.status("processing")
@@ -286,3 +287,23 @@ def test_upload_of_another_plugin_fails_at_once():
     assert name == "a.gcode"
     assert failed == [("a.gcode", "a.gcode", 0)]
     assert UploadRefusal(lambda: False).on_upload(None, "a", "a", None, None, None) is None
+
+
+def test_no_file_is_told_before_octoprint_has_it_in_its_list(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    bench.status("processing")
+    # 2.0 looks for the file in its list and gives the connection up where it isn't
+    assert bench.card.fill() == SWALLOWED
+    bench.hear("Begin file list", "a b.gcode", "End file list")
+    bench.status("processing")
+    (name,) = bench.comm._sdFiles
+    assert bench.card.fill() == f"File opened: {name} Size: 500"
+    assert bench.card.fill() == "File selected"
+
+
+def test_file_that_octoprint_does_not_list_is_opened_for_itself(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    bench.card.translate('M23 "0:/gcodes/a b.gcode"', "M23", set())
+    assert bench.hear("File opened") == ["// a file that is not in the list was opened"]

@@ -288,6 +288,21 @@ def test_job_that_goes_on_when_octoprint_connects(server, connected, board_facto
     wait_job_gone(server, board)
 
 
+@pytest.mark.parametrize("name", ["square.gcode", "Spare parts/ver 2/clip.gcode"])
+def test_job_that_begins_before_octoprint_has_the_list(server, board_factory, files, name):
+    board = board_factory()
+    for number in range(8):
+        board.board.card.write(f"0:/gcodes/folder {number}/some.gcode", "G4 S1\n")
+    board.board.card.write(FILES[name], "G4 S1\n" * 60)
+    helpers.connect(server, board)
+    helpers.wait_ready(server)
+    # known before the list of all folders is, and that a moment before OctoPrint has asked for it
+    board.board.execute(f'M32 "{FILES[name]}"', channel="http")
+    server.wait_state("Printing", 30)
+    assert server.job()["job"]["file"]["display"] == name
+    assert "Something crashed" not in server.log()
+
+
 def test_job_cancelled_at_the_machine(server, connected, select):
     board = connected()
     select("square.gcode", start=True)
