@@ -14,7 +14,9 @@ pytestmark = pytest.mark.timeout(240)
 
 @pytest.fixture(scope="module")
 def board(module_board_factory):
-    return module_board_factory(machine="corexy", speed=20)
+    made = module_board_factory(machine="corexy", speed=20)
+    made.board.card.write("0:/macros/<u>More/Park.g", "M117 parked\n")
+    return made
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +72,8 @@ def test_macros(page, view, server, board, page_errors):
     part(view, "macros").click()
     macros = part(view, "macro")
     macros.first.wait_for()
-    assert [name.strip() for name in macros.all_inner_texts()] == ["Ask first", "Say hello"]
+    names = [name.strip() for name in macros.all_inner_texts()]
+    assert names == ["<u>More", "Ask first", "Say hello"]
     macros.last.click()
     server.wait_for(
         lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 10, "the macro to be run"
@@ -78,11 +81,60 @@ def test_macros(page, view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_macros_in_a_folder(view, server, page_errors):
+    part(view, "macros").click()
+    expect(part(view, "macro-up")).to_be_hidden()
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "0:/macros/<u>More")
+    expect(part(view, "macro")).to_have_count(1)
+    part(view, "macro").click()
+    run = 'M98 P"0:/macros/<u>More/Park.g"'
+    server.wait_for(lambda: run in "\n".join(sent(server)), 10, "the macro to be run")
+    part(view, "macro-up").click()
+    expect(part(view, "macro")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_text_of_the_machine_is_never_markup(view, board, page_errors):
+    data = board.board.data
+    before = data["boards"][0]["name"], data["network"]["name"]
+    try:
+        data["boards"][0]["name"] = "<b>board</b>"
+        data["network"]["name"] = "<img src=x onerror=alert(1)>"
+        board.board.bump("boards")
+        board.board.bump("network")
+        wait_text(part(view, "board").first, "<b>board</b>")
+        wait_text(view, "<img src=x onerror=alert(1)>")
+        assert view.locator("b, img").count() == 0
+    finally:
+        data["boards"][0]["name"], data["network"]["name"] = before
+        board.board.bump("boards")
+        board.board.bump("network")
+    assert own_errors(page_errors) == []
+
+
+def test_monitor_that_reports_a_fault(view, board):
+    monitor = board.board.data["sensors"]["filamentMonitors"][0]
+    label = part(view, "monitor").first.locator(".label")
+    expect(label).to_have_class("label label-success")
+    before = monitor["status"]
+    try:
+        monitor["status"] = "tooLittleMovement"
+        board.board.bump("sensors")
+        wait_text(label, "too little movement")
+        expect(label).to_have_class("label label-important")
+    finally:
+        monitor["status"] = before
+        board.board.bump("sensors")
+    wait_text(label, "ok")
+
+
 def test_filaments(view, server, board):
     board.board.execute("T0", channel="http")
     helpers.wait_value(server, "state.currentTool", 0, 20)
     part(view, "filaments").click()
-    part(view, "load").first.click()
+    part(view, "load").first.wait_for()
+    view.get_by_role("button", name="Load PLA").click()
     wait_board(server, board, "move.extruders[0].filament", "PLA", 30)
     helpers.wait_value(server, "move.extruders[0].filament", "PLA", 20)
     part(view, "unload").click()
@@ -96,7 +148,8 @@ def test_power(page, view, server, board):
     wait_board(server, board, "state.atxPower", True)
     wait_text(part(view, "power-state"), "on")
     part(view, "power-off").click()
-    page.locator(".modal:visible").get_by_text("Switch off", exact=True).click()
+    # OctoPrint's dialogs have links for buttons
+    page.locator(".modal.in .modal-footer .btn-danger").get_by_text("Switch off").click()
     wait_board(server, board, "state.atxPower", False)
     board.board.data["state"].update(atxPower=None, atxPowerPort=None)
     board.board.bump("state")
@@ -113,11 +166,18 @@ def test_board_of_another_version(view, board):
     expect(part(view, "board")).to_have_count(len(boards), timeout=20_000)
 
 
-def test_who_may_only_read_can_use_nothing(page, server):
+def test_who_may_only_read_can_only_look(page, server):
     view = opened(page, server, READER)
-    controls = view.locator("button:visible, input:visible")
-    assert controls.count() > 4
-    assert {control.is_disabled() for control in controls.all()} == {True}
+    part(view, "filaments").click()
+    part(view, "load").first.wait_for()
+    part(view, "macros").click()
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "More")
+    looking = {"macros", "filaments", "macro-up"}
+    controls = view.locator("button:visible, input:visible").all()
+    enabled = {control.get_attribute("data-test") for control in controls if control.is_enabled()}
+    assert enabled == looking
+    assert len(controls) > len(looking) + 4
 
 
 def test_spindle(page, module_server_factory, module_board_factory):
@@ -148,7 +208,8 @@ def test_folder(server):
     answer = files(server, "0:/macros")
     assert answer.status_code == 200, answer.text
     assert answer.json()["path"] == "0:/macros"
-    assert [entry["name"] for entry in answer.json()["entries"]] == ["Say hello", "Ask first"]
+    names = [entry["name"] for entry in answer.json()["entries"]]
+    assert names == ["<u>More", "Say hello", "Ask first"]
     before = len([line for line in server.sent() if "M20 S3" in line])
     assert files(server, "0:/macros/").json() == answer.json()
     assert len([line for line in server.sent() if "M20 S3" in line]) == before

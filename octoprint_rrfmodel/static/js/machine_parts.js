@@ -37,10 +37,13 @@ $(function () {
                 .fail(core.tellRefusal)
                 .always(() => self.isReading(false));
         };
-        self.show = () => (self.isOpen() ? self.isOpen(false) : read(self.path()));
+        self.show = () => (self.isOpen() ? self.isOpen(false) : read(root));
         self.enter = (entry) => read(self.path() + "/" + entry.name);
         self.up = () => read(self.path().slice(0, self.path().lastIndexOf("/")));
         self.pathOf = (entry) => self.path() + "/" + entry.name;
+
+        // the next machine has a card of its own
+        core.isRrf.subscribe(() => self.isOpen(false));
     }
 
     function RrfModelMachinePartsViewModel(parameters) {
@@ -56,6 +59,21 @@ $(function () {
         const state = ko.pureComputed(() => object(model("state")));
         const move = ko.pureComputed(() => object(model("move")));
         const yesNo = (value) => (value ? gettext("triggered") : gettext("open"));
+        const MONITORS = {
+            noMonitor: gettext("no monitor"),
+            ok: gettext("ok"),
+            noDataReceived: gettext("no data yet"),
+            noFilament: gettext("no filament"),
+            tooLittleMovement: gettext("too little movement"),
+            tooMuchMovement: gettext("too much movement"),
+            sensorError: gettext("sensor error")
+        };
+        const HARMLESS = ["", "ok", "noDataReceived", "noMonitor"];
+        const SPINDLES = {
+            stopped: gettext("stopped"),
+            forward: gettext("forward"),
+            reverse: gettext("reverse")
+        };
 
         self.endstops = RRFModel.rows(() =>
             numbered(sensors().endstops).map((found) => ({
@@ -83,8 +101,8 @@ $(function () {
                 key: found.index,
                 name: _.sprintf(gettext("Extruder %(number)s"), {number: found.index}),
                 type: found.item.type || "",
-                status: found.item.status || "",
-                isBad: !["ok", "noDataReceived", "noMonitor", undefined].includes(found.item.status)
+                status: MONITORS[found.item.status] || found.item.status || "",
+                isBad: !HARMLESS.includes(found.item.status || "")
             }))
         );
 
@@ -99,7 +117,7 @@ $(function () {
                         name: _.sprintf(gettext("Spindle %(number)s"), {number: found.index}),
                         current: show.fixed(found.item.current, 0),
                         active: found.item.active,
-                        state: found.item.state || "",
+                        state: SPINDLES[found.item.state] || found.item.state || "",
                         max: found.item.max
                     })),
             function (row) {
@@ -236,6 +254,7 @@ $(function () {
         self.filamentNames = ko.pureComputed(() =>
             self.filaments.entries().filter((entry) => entry.folder)
         );
+        self.loadLabel = (entry) => _.sprintf(gettext("Load %(name)s"), {name: entry.name});
         self.load = (entry) => core.command("filament", {action: "load", name: entry.name});
         self.unload = () => core.command("filament", {action: "unload"});
     }
