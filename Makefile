@@ -116,7 +116,7 @@ translations: .venv/octoprint-2.0/.ready
 		--project=OctoPrint-RRFModel --copyright-holder="OctoPrint-RRFModel developers" \
 		--no-location --sort-output .
 	@for language in $(LANGUAGES); do \
-		$(BABEL) --quiet update --input-file=translations/messages.pot \
+		$(BABEL) --quiet update --no-fuzzy-matching --input-file=translations/messages.pot \
 			--output-dir=translations --locale=$$language && \
 		$(BABEL) --quiet compile --directory=translations --locale=$$language && \
 		mkdir -p octoprint_rrfmodel/translations/$$language/LC_MESSAGES && \
