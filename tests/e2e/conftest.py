@@ -1,4 +1,4 @@
-"""Fixtures of the tests that operate machines: one server for a module, one machine at a time."""
+"""Fixtures of end-to-end tests: a module's server with its board, or one machine at a time."""
 
 import pytest
 
@@ -18,6 +18,23 @@ def _module_and_machine(item):
     parameters = getattr(item, "callspec", None)
     name = parameters.params.get("machine") if parameters else None
     return item.nodeid.partition("::")[0], list(SETUPS).index(name) if name else -1
+
+
+@pytest.fixture(scope="module")
+def board(request, module_board_factory):
+    """The module's board: ``BOARD`` in it has the options, ``prepare(board)`` what is put on it."""
+    made = module_board_factory(**request.module.BOARD)
+    getattr(request.module, "prepare", lambda board: None)(made.board)
+    return made
+
+
+@pytest.fixture(scope="module")
+def server(request, module_server_factory):
+    """The module's server, connected to its ``board`` where ``BOARD`` says that there is one."""
+    made = module_server_factory()
+    if hasattr(request.module, "BOARD"):
+        helpers.connect(made, request.getfixturevalue("board"))
+    return made
 
 
 @pytest.fixture(scope="module")

@@ -9,17 +9,7 @@ from . import helpers
 FILES = "/plugin/rrfmodel/files"
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory()
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    helpers.wait_ready(made)
-    return made
+BOARD = {}
 
 
 def listed(server, path):

@@ -11,16 +11,7 @@ LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 100))
 """A print of three layers: seconds on the board's clock, which is twenty times as fast."""
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="cartesian", speed=20)
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "cartesian", "speed": 20}
 
 
 def history(server, **parameters):

@@ -32,16 +32,7 @@ STATUS_TYPES = {
 COUNTERS = {"polls", "replies", "bytes", "malformed", "out_of_buffers", "timeouts", "rewritten"}
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="toolchanger")
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "toolchanger"}
 
 
 @pytest.fixture

@@ -15,16 +15,7 @@ from . import helpers
 BASE = "/plugin/rrfmodel"
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="toolchanger")
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "toolchanger"}
 
 
 def result(response):

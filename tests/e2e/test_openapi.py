@@ -33,16 +33,7 @@ DISRUPTIVE = ("recover", "fix_settings", "restore_settings", "fix_profile")
 PATH = Path(octoprint_rrfmodel.__file__).with_name("openapi.json")
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="toolchanger", speed=20)
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "toolchanger", "speed": 20}
 
 
 @pytest.fixture(scope="module")

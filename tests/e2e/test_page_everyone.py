@@ -32,16 +32,7 @@ legend { color: inherit !important; }
 """What dark themes do: grounds and letters are others, for OctoPrint's own elements."""
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="corexy")
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "corexy"}
 
 
 def serious(page):

@@ -45,20 +45,13 @@ def printed(layers, names=NAMES):
     return HEAD + "".join(body) + TAIL
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    made = module_board_factory(machine="cartesian")
-    card = made.board.card
+BOARD = {"machine": "cartesian"}
+
+
+def prepare(board):
+    card = board.card
     card.write("0:/gcodes/parts/clip.gcode", printed(60))
     card.write("0:/gcodes/short.gcode", printed(3))
-    return made
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
 
 
 @pytest.fixture

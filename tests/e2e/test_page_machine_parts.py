@@ -12,18 +12,11 @@ from .page import own_errors, part, type_number, wait_board, wait_text
 pytestmark = pytest.mark.timeout(240)
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    made = module_board_factory(machine="corexy", speed=20)
-    made.board.card.write("0:/macros/<u>More/Park.g", "M117 parked\n")
-    return made
+BOARD = {"machine": "corexy", "speed": 20}
 
 
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+def prepare(board):
+    board.card.write("0:/macros/<u>More/Park.g", "M117 parked\n")
 
 
 def opened(page, server, user):
@@ -195,38 +188,3 @@ def test_spindle(page, module_server_factory, module_board_factory):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
-
-
-# the endpoint behind the lists
-
-
-def files(server, path):
-    return server.get("/plugin/rrfmodel/files", params={"path": path})
-
-
-def test_folder(server):
-    answer = files(server, "0:/macros")
-    assert answer.status_code == 200, answer.text
-    assert answer.json()["path"] == "0:/macros"
-    names = [entry["name"] for entry in answer.json()["entries"]]
-    assert names == ["<u>More", "Say hello", "Ask first"]
-    before = len([line for line in server.sent() if "M20 S3" in line])
-    assert files(server, "0:/macros/").json() == answer.json()
-    assert len([line for line in server.sent() if "M20 S3" in line]) == before
-
-
-@pytest.mark.parametrize(
-    ("path", "status"),
-    [
-        ("0:/nothing", 404),
-        ("", 400),
-        ("0:/" + "x" * 100, 400),
-        ('0:/a"b', 400),
-        ("0:/a;b", 400),
-        ("0:/a\nb", 400),
-    ],
-)
-def test_folders_that_are_none(server, path, status):
-    answer = files(server, path)
-    assert answer.status_code == status
-    assert answer.json()["error"]

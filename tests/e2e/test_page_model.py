@@ -5,7 +5,6 @@ from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, READER
 
-from . import helpers
 from .page import open_view, own_errors, part, wait_text
 
 pytestmark = pytest.mark.timeout(240)
@@ -13,16 +12,7 @@ pytestmark = pytest.mark.timeout(240)
 MARKUP = "<img src=x onerror=alert(1)>"
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="toolchanger", speed=10)
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {"machine": "toolchanger", "speed": 10}
 
 
 @pytest.fixture

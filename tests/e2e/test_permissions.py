@@ -51,16 +51,7 @@ MAY = {
 }
 
 
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory()
-
-
-@pytest.fixture(scope="module")
-def server(module_server_factory, board):
-    made = module_server_factory()
-    helpers.connect(made, board)
-    return made
+BOARD = {}
 
 
 @pytest.fixture
