@@ -68,13 +68,15 @@ def value(server, key, flags="d99vno"):
 
 
 def wait_value(server, key, wanted, seconds, what=None):
-    """Return how long it took until the model has that value; ``wanted`` may be a predicate."""
+    """Return the value once the model has that one; ``wanted`` may be a predicate."""
     fits = wanted if callable(wanted) else lambda found: found == wanted
-    started = time.monotonic()
-    server.wait_for(
-        lambda: fits(value(server, key)), seconds, what or f"{key} to be {wanted!r} over HTTP"
-    )
-    return time.monotonic() - started
+
+    def fitting():
+        found = value(server, key)
+        # in a tuple, for what fits may be false
+        return (found,) if fits(found) else None
+
+    return server.wait_for(fitting, seconds, what or f"{key} to be {wanted!r} over HTTP")[0]
 
 
 def disconnect(server):

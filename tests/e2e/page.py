@@ -42,11 +42,14 @@ def board_value(board, key):
 
 
 def wait_board(server, board, key, wanted, seconds=SECONDS):
-    """Return once the board's own value is ``wanted``, which may be a predicate."""
+    """Return the board's own value once it is ``wanted``, which may be a predicate."""
     fits = wanted if callable(wanted) else lambda found: found == wanted
-    server.wait_for(
-        lambda: fits(board_value(board, key)), seconds, f"{key} of the board to be {wanted!r}"
-    )
+
+    def fitting():
+        found = board_value(board, key)
+        return (found,) if fits(found) else None
+
+    return server.wait_for(fitting, seconds, f"{key} of the board to be {wanted!r}")[0]
 
 
 def own_errors(page_errors):

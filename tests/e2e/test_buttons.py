@@ -1,6 +1,7 @@
 """The buttons of the page: what they do, and that only those see them who may press them."""
 
 import pytest
+from playwright.sync_api import expect
 
 from octoprint_rrfmodel.rrf.alerts import GUARDS
 from octoprint_rrfmodel.rrf.operations import ROWS as OPERATIONS
@@ -76,4 +77,4 @@ def test_restart(server, board, page, button):
     page.locator(button).click(timeout=20_000)
     server.wait_for(lambda: not board.board.is_halted, 20, "the restart")
     server.wait_state("Operational", 30)
-    page.locator("[data-test=warning]").wait_for(state="detached", timeout=20_000)
+    expect(page.locator("[data-test=warning]")).to_have_count(0, timeout=20_000)

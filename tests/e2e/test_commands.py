@@ -235,7 +235,7 @@ def test_command(machine, name, parameters, lines, old_lines, is_done):
 def test_extruding(machine):
     before = machine.board.model["move"]["extruders"][0]["rawPosition"]
     machine.command("extrude", ["M120 M83 G1 E2 F300 M121"], amounts=2, speed=300)
-    machine.server.wait_for(
+    assert machine.server.wait_for(
         lambda: (
             machine.board.model["move"]["extruders"][0]["rawPosition"] == pytest.approx(before + 2)
         ),

@@ -225,7 +225,7 @@ def test_heater_fault_is_reset(machine):
     helpers.wait_value(machine.server, "heat.heaters[1].state", "fault", 10)
     machine.board.clear("heater_fault")
     machine.command("reset_heater_fault", ["M562 P1"], heater=1)
-    helpers.wait_value(machine.server, "heat.heaters[1].state", "off", 5)
+    assert helpers.wait_value(machine.server, "heat.heaters[1].state", "off", 5) == "off"
 
 
 def test_power_goes_off(machine):
@@ -246,4 +246,4 @@ def test_profile_with_all_tools_sends_plain_lines(server_factory, board_factory)
     helpers.connect(server, changer)
     machine = Machine(server, changer)
     machine.command("select_tool", ["T10"], tool=10)
-    helpers.wait_value(server, "state.currentTool", 10, 10)
+    assert helpers.wait_value(server, "state.currentTool", 10, 10) == 10

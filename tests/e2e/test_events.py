@@ -91,4 +91,6 @@ def test_reset(server, push, board):
     ready = len(told(push, "model_ready"))
     board.board.reset()
     server.wait_for(lambda: told(push, "firmware_reset"), 60, "the reset")
-    server.wait_for(lambda: len(told(push, "model_ready")) > ready, 60, "the model to be complete")
+    assert server.wait_for(
+        lambda: len(told(push, "model_ready")) > ready, 60, "the model to be complete"
+    )

@@ -24,15 +24,18 @@ def board(request, server, module_board_factory):
 def test_live_value(server, board, change, key, wanted):
     helpers.wait_polls(server, 1)
     board.board.execute(change)
-    helpers.wait_value(server, key, wanted, helpers.LIVE_SECONDS)
+    assert helpers.wait_value(server, key, wanted, helpers.LIVE_SECONDS) == wanted
 
 
 def test_temperature(server, board):
     helpers.wait_polls(server, 1)
     with board.board.lock:
         board.board.data["heat"]["heaters"][1]["current"] = 180.0
-    helpers.wait_value(
-        server, "heat.heaters[1].current", lambda found: found > 90, helpers.LIVE_SECONDS
+    assert (
+        helpers.wait_value(
+            server, "heat.heaters[1].current", lambda found: found > 90, helpers.LIVE_SECONDS
+        )
+        > 90
     )
 
 
@@ -41,7 +44,9 @@ def test_position(server, board):
     helpers.wait_value(server, "move.axes[].machinePosition", [0, 0, 0], 10)
     board.board.execute("G90\nG1 X25 Y7.5 F12000")
     server.wait_for(lambda: not board.board.motion.is_moving, 10, "the end of the move")
-    helpers.wait_value(server, "move.axes[].machinePosition", [25, 7.5, 0], helpers.LIVE_SECONDS)
+    assert helpers.wait_value(
+        server, "move.axes[].machinePosition", [25, 7.5, 0], helpers.LIVE_SECONDS
+    ) == [25, 7.5, 0]
 
 
 @pytest.mark.parametrize(
@@ -75,7 +80,10 @@ def test_homed(server, board):
     server.wait_for(
         lambda: all(axis["homed"] for axis in board.board.model["move"]["axes"]), 10, "homing"
     )
-    helpers.wait_value(server, "move.axes[].homed", [True] * 3, helpers.SETTLED_SECONDS)
+    assert (
+        helpers.wait_value(server, "move.axes[].homed", [True] * 3, helpers.SETTLED_SECONDS)
+        == [True] * 3
+    )
 
 
 def test_message_box(server, board):

@@ -74,7 +74,9 @@ def test_a_stale_model_leaves_a_gap(server):
         60,
         "a gap",
     )
-    server.wait_for(lambda: helpers.status(server)["blocked"] is None, 40, "the command to end")
+    assert server.wait_for(
+        lambda: helpers.status(server)["blocked"] is None, 40, "the command to end"
+    )
 
 
 def test_layers_of_a_job(server, board):

@@ -163,7 +163,7 @@ def test_values_under_the_pointer(page, view):
     page.mouse.move(box["x"] + box["width"] * 0.8, box["y"] + 50)
     wait_text(part(view, "time"), ":")
     page.mouse.move(0, 0)
-    wait_text(part(view, "time"), "Latest")
+    expect(part(view, "time")).to_contain_text("Latest", timeout=15_000)
 
 
 def test_text_of_the_printer_is_text(page, server, view, board, page_errors):

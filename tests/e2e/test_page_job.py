@@ -234,7 +234,9 @@ def test_a_refusal_is_told(page, view, server, board):
         lambda route: route.fulfill(status=409, json={"error": "The machine has no job."}),
     )
     part(view, "pause").click()
-    wait_text(page.locator(".ui-pnotify-text").last, "The machine has no job.")
+    expect(page.locator(".ui-pnotify-text").last).to_contain_text(
+        "The machine has no job.", timeout=15_000
+    )
 
 
 def test_narrow(page, view):

@@ -131,7 +131,7 @@ def test_filaments(view, server, board):
     wait_board(server, board, "move.extruders[0].filament", "PLA", 30)
     helpers.wait_value(server, "move.extruders[0].filament", "PLA", 20)
     part(view, "unload").click()
-    wait_board(server, board, "move.extruders[0].filament", "", 30)
+    assert wait_board(server, board, "move.extruders[0].filament", "", 30) == ""
 
 
 def test_power(page, view, server, board):

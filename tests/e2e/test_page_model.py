@@ -86,7 +86,7 @@ def test_value_with_unit_and_meaning(view, board):
     wait_text(found, "Temperature now")
     found.click()
     wait_text(part(view, "meaning"), "Temperature now")
-    wait_text(part(view, "detail-value"), "°C")
+    expect(part(view, "detail-value")).to_contain_text("°C", timeout=15_000)
 
 
 def test_follows_by_push_and_lights_up(view, board):
@@ -183,7 +183,7 @@ def test_a_selected_value_that_goes_away_is_no_longer_told_of(view, board):
     with board.board.lock:
         del board.board.data["global"]["soon"]
         board.board.bump("global")
-    path(view).wait_for(state="detached", timeout=15_000)
+    expect(path(view)).to_have_count(0, timeout=20_000)
 
 
 def test_hidden_it_does_nothing(page, view):

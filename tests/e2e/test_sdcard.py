@@ -145,7 +145,7 @@ def test_change_on_the_card_shows(server, connected, files):
     board = connected()
     board.board.execute('M30 "0:/gcodes/square.gcode"', channel="http")
     rest = set(FILES) - {"square.gcode"}
-    server.wait_for(lambda: set(files()) == rest, 10, "the file to be gone")
+    assert server.wait_for(lambda: set(files()) == rest, 10, "the file to be gone")
 
 
 def test_release_and_init(server, connected, files, location):

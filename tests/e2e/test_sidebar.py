@@ -1,6 +1,7 @@
 """The sidebar in a real browser, fed by push."""
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, READER, User
 from tests.support.browser import open_octoprint
@@ -82,7 +83,7 @@ def test_says_why_the_data_are_old(sidebar, server, board):
     server.commands("G4 S20")
     wait_text(text_of(sidebar, "reason"), "long command")
     server.wait_for(lambda: helpers.status(server)["blocked"] is None, 40, "the command to end")
-    text_of(sidebar, "reason").wait_for(state="detached", timeout=15_000)
+    expect(text_of(sidebar, "reason")).to_have_count(0, timeout=20_000)
 
 
 def test_heater_fault_is_told_and_taken_back(page, sidebar, board, page_errors):

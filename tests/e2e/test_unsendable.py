@@ -168,4 +168,4 @@ def test_box_of_a_macro_that_holds_the_line(server, connected):
     server.wait_for(lambda: helpers.status(server)["blocked"], 5, "the command to begin")
     board.board.message("- Look -\nIs it there?\nSend M292 to continue\n")
     server.wait_for(lambda: box_warning(server), 3, "the warning")
-    server.wait_for(lambda: not box_warning(server), 15, "the end of the warning")
+    assert server.wait_for(lambda: not box_warning(server), 15, "the end of the warning")
