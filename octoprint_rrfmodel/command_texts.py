@@ -19,8 +19,6 @@ def _of_requests():
         "not_a_command": gettext(
             "The request has to be a JSON object with the name of a command in command."
         ),
-        "not_fields": gettext("fields has to be a list of names of fields."),
-        "unknown_field": gettext("The machine says nothing of the field %(field)s."),
         "unknown_parameter": gettext(
             "The command %(command)s has no parameter %(parameter)s. It has: %(known)s."
         ),

@@ -5,6 +5,7 @@ from octoprint.access.permissions import Permissions
 
 from .api import answer, refusal
 from .command_texts import command_text
+from .rrf.commands.parameters import shown
 
 SEEN = ["wizard_seen"]
 
@@ -47,7 +48,7 @@ class Setup:
         fields, takes_all = parameters.get("fields"), parameters.get("all", False)
         is_list = isinstance(fields, list) and all(isinstance(name, str) for name in fields)
         if fields is not None and not is_list:
-            return 400, command_text("not_fields", {})
+            return 400, gettext("fields has to be a list of names of fields.")
         if not isinstance(takes_all, bool):
             return 400, command_text("not_a_truth_value", {"parameter": "all"})
         if self._prints():
@@ -61,7 +62,8 @@ class Setup:
             fields = [row["field"] for row in self._profile.differences()]
         unknown = self._profile.write(fields)
         if unknown:
-            return 400, command_text("unknown_field", {"field": unknown[0][:40]})
+            field = shown(unknown[0])
+            return 400, gettext("The machine says nothing of the field %(field)s.", field=field)
         return None
 
     def wizard_done(self, parameters):

@@ -28,6 +28,7 @@ STATUS_TYPES = {
     "resets": int,
     "counters": dict,
     "warnings": list,
+    "first_run": bool,
 }
 COUNTERS = {"polls", "replies", "bytes", "malformed", "out_of_buffers", "timeouts", "rewritten"}
 

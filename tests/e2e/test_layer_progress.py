@@ -81,7 +81,7 @@ def test_print_from_the_card(server, connect):
     assert layers == sorted(layers)
     # what the file tells comes a moment after the first layer
     assert {found["totalLayer"] for found in payloads} - {"-"} == {str(LAYERS)}
-    assert {found["currentFilename"] for found in payloads} == {"tower.gcode"}
+    assert {found["currentFilename"] for found in payloads} - {"-"} == {"tower.gcode"}
     assert {"40%"} <= {found["fanspeed"] for found in payloads}
     assert {"1200"} <= {found["feedrate"] for found in payloads}
     middle = next(found for found in payloads if found["currentLayer"] == str(LAYERS - 2))
