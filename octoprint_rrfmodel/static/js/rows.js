@@ -39,7 +39,8 @@ $(function () {
                     next.every((row, place) => row === present[place]);
                 if (!isSame) rows(next);
             });
-        });
+            // once for an update, however many keys of the model came with it
+        }).extend({deferred: true});
         return rows;
     };
 
