@@ -163,7 +163,8 @@ class SdCard:
         opened = None
         if alias and is_listed(comm, alias):
             opened = (PREFIX + alias, index.file_of(alias).size)
-        return self._job.situation(comm, index, opened, self._plan.notices_changes)
+        knows_file, is_telling = self._plan.notices_changes, bool(self._says)
+        return self._job.situation(comm, index, opened, knows_file, is_telling)
 
     def _collect(self, comm, line):
         """Take a line of the board's plain list out, and put the whole list in at its end."""

@@ -73,11 +73,12 @@ class SdJob:
             # set when a print starts, and never taken back in 2.0 (serial_comm.py:3227)
             comm._ignore_select = False
 
-    def situation(self, comm, index, opened, knows_file):
+    def situation(self, comm, index, opened, knows_file, is_telling):
         """Return what the words of a reply depend on.
 
         ``opened`` is alias and size of the file that was asked for. ``knows_file`` says whether
-        the model tells which file is printed.
+        the model tells which file is printed, ``is_telling`` whether OctoPrint hasn't heard all
+        of the last news yet.
         """
         job = card_job(self._model())
         # a position that grows is a print of the selected file to OctoPrint unless it has one, and
@@ -87,8 +88,11 @@ class SdJob:
         is_other = knows_file and not (
             settled.is_active and _is_selected(comm, index, settled.path)
         )
+        # between "File opened" and "File selected" OctoPrint already counts the new file's
+        # progress, and would begin with the old file's name
+        is_unknown = is_other or is_telling
         hides = (
-            self._cancelled_at is not None or comm.isPaused() or (is_other and not comm.isBusy())
+            self._cancelled_at is not None or comm.isPaused() or (is_unknown and not comm.isBusy())
         )
         names_file = bool(comm._sdFileToSelect)
         return Situation(opened, names_file, comm.isSdPrinting(), hides, job)

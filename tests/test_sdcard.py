@@ -24,6 +24,7 @@ class Connection:
         self._sdFileToSelect = None
         self._serial_encoding = "ascii"
         self._ignore_select = False
+        self._currentFile = None
         self.state = "operational"
         self.is_ready = True
         self.called = []
@@ -32,7 +33,7 @@ class Connection:
         return self.is_ready
 
     def isSdFileSelected(self):
-        return self.state in ("printing", "paused")
+        return self._currentFile is not None or self.state in ("printing", "paused")
 
     def isSdPrinting(self):
         return self.state == "printing"
@@ -59,6 +60,13 @@ class Connection:
 
     def initSdCard(self, tags):
         self.called.append("init")
+
+
+class SelectedFile:
+    """What OctoPrint would print."""
+
+    def __init__(self, name):
+        self.getFilename = lambda: name
 
 
 class Bench:
@@ -276,6 +284,21 @@ def test_job_of_the_machine_is_selected_once(bench):
     assert bench.hear("") == ["File selected"]
     bench.status("processing")
     assert bench.card.fill() == SWALLOWED
+
+
+def test_job_of_the_machine_is_not_shown_before_octoprint_has_heard_its_name(bench):
+    bench.card.fill()
+    bench.list("a b.gcode")
+    bench.hear("Begin file list", "End file list")
+    (alias,) = bench.plan.index.files
+    bench.status("processing")
+    assert bench.card.fill().startswith("File opened")
+    # OctoPrint has the file but not yet told anybody so: a position that grows would begin a
+    # print under the name of what was selected before
+    bench.comm._currentFile = SelectedFile(PREFIX + alias)
+    assert bench.hear("SD printing byte 123/500") == ["Not SD printing."]
+    assert bench.card.fill() == "File selected"
+    assert bench.hear("SD printing byte 123/500") == ["SD printing byte 123/500\n"]
 
 
 def test_upload_of_another_plugin_fails_at_once():

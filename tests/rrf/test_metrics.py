@@ -138,7 +138,7 @@ def models():
     changer.send("G28", "T3", "M568 P3 S205 R150 A1")
     changer.until(lambda model: model["heat"]["heaters"][2]["standby"] == 150)
     router = Machine("cnc")
-    router.send("M3 S12000")
+    router.send("M3 P0 S12000")
     made = {
         "printer": printer.board,
         "after": after.board,
