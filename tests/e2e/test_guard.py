@@ -108,6 +108,8 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         told = pause(server)
         assert told["values"]["next"] == "resume"
         assert code in [cause["code"] for cause in told["causes"]]
+        # a board without supply forgets where its axes are
+        server.commands("G92 X20 Y20 Z0")
         assert resume(server).status_code == 204
         server.wait_state("Printing")
         # OctoPrint tells of it later than its state shows it
