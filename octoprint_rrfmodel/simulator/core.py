@@ -262,7 +262,7 @@ class Core:
 
     def save_restore_point(self, index: int) -> None:
         points = self.data["state"].get("restorePoints") or []
-        if index < len(points):
+        if 0 <= index < len(points):
             self.refresh()
             points[index]["coords"] = [axis["userPosition"] for axis in self.motion.axes]
             points[index]["toolNumber"] = self.data["state"]["currentTool"]

@@ -52,7 +52,7 @@ def wait_for_heaters(board: Core, channel: Channel, command: Command) -> Running
     if "C" in command:
         slots = board.data["heat"].get("chamberHeaters") or []
         wanted = command.numbers("C") if command.raw["C"][0] else range(len(slots))
-        indexes += [slots[int(slot)] for slot in wanted or () if int(slot) < len(slots)]
+        indexes += [slots[int(slot)] for slot in wanted or () if 0 <= int(slot) < len(slots)]
     if not indexes:
         indexes = list(range(len(board.thermal.heaters)))
     yield heated(board, indexes)
@@ -63,7 +63,7 @@ def slot_target(board: Core, channel: Channel, command: Command) -> Outcome:
     member, called = SLOTS[command.number or 0]
     slot = command.integer("P", 0) or 0
     slots = board.data["heat"].get(member) or []
-    if "H" in command and slot < len(slots):
+    if "H" in command and 0 <= slot < len(slots):
         slots[slot] = command.integer("H", -1)
         board.bump("heat")
     index = slots[slot] if 0 <= slot < len(slots) else -1
@@ -110,7 +110,7 @@ def bed_standby(board: Core, channel: Channel, command: Command) -> Outcome:
     """M144: the bed to standby, with S1 to active."""
     slots = board.data["heat"].get("bedHeaters") or []
     slot = command.integer("P", 0) or 0
-    if slot < len(slots):
+    if 0 <= slot < len(slots):
         board.thermal.set_state(slots[slot], "active" if command.integer("S", 0) else "standby")
     return None
 
@@ -157,7 +157,7 @@ def fan_off(board: Core, channel: Channel, command: Command) -> Outcome:
     """M107."""
     tool = board.current_tool()
     for number in (tool.get("fans") if tool else None) or [0]:
-        if number < len(board.data.get("fans") or ()):
+        if 0 <= number < len(board.data.get("fans") or ()):
             board.data["fans"][number]["requestedValue"] = 0.0
     return None
 

@@ -170,6 +170,7 @@ def test_resumed_otherwise_pauses_again(server, printing):
         push.wait_for_event("PrintResumed")
         push.wait_for_event("PrintPaused", 20)
     server.wait_state("Paused", 20)
+    assert pause(server)["values"]["next"] == "wait"
 
 
 def test_each_can_be_switched_off(server, printing):

@@ -64,6 +64,7 @@ def test_no_room_for_a_while_loses_nothing(key, times):
         serve(follower, board)
     for _ in range(times):
         follower.take(NO_BUFFERS)
+    assert follower.counters["out_of_buffers"] == times
     settle(follower, board, 90)
 
 

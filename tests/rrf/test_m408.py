@@ -55,8 +55,9 @@ def test_letter_means_another_state_in_s0_and_s1(letter, state, legacy_state):
 
 @pytest.mark.parametrize("letter", [None, 5, [], {}])
 def test_letter_that_is_none_is_harmless(letter):
-    taken(status(status=letter))
-    taken(legacy(status=letter))
+    reading = {"temps": {"current": [1.0]}}
+    assert taken(status(status=letter, **reading))["heat"]["heaters"] == [{"current": 1.0}]
+    assert taken(legacy(status=letter))["heat"]["heaters"][0]["current"] == 21.5
 
 
 @pytest.mark.parametrize(
@@ -255,7 +256,9 @@ def test_no_slot_is_taken_for_a_heater_that_is_none():
 
 @pytest.mark.parametrize("heater", [10**9, 2.5, "1", None, [], True, -(10**9)])
 def test_absurd_heater_number_is_harmless(heater):
-    taken(status(temps={"current": [1.0], "bed": {"current": 5.0, "heater": heater}}))
+    model = taken(status(temps={"current": [1.0], "bed": {"current": 5.0, "heater": heater}}))
+    assert model["state"]["status"] == "idle"
+    assert len(model["heat"]["heaters"]) <= 2
 
 
 def test_what_was_taken_is_not_changed():
@@ -336,7 +339,7 @@ def test_member_of_an_odd_kind_is_harmless(form, field):
             place[last] = odd
         model = M408Model()
         model.take(reply)
-        model.take(status())
+        assert model.take(status())["state"]["status"] == "idle"
 
 
 PRINTED = {"filePosition": 500, "printDuration": 12, "timesLeft": {"file": 30}, "currentLayer": 3}

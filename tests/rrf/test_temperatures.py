@@ -178,4 +178,6 @@ def test_odd_values_are_harmless(model):
 def test_odd_member_of_a_heater_is_harmless(member, odd):
     model = heated({**heater(state="active"), member: odd}, beds=[0], tools=[(0,)])
     model["sensors"]["analog"] = [{"lastReading": 1.5, "name": odd}]
-    temperatures(model)
+    shown = temperatures(model)
+    assert set(shown.tools) <= {0}
+    assert len(shown.others) <= 1

@@ -51,13 +51,14 @@ def driven(board, time, data):
 )
 @example("cnc", "3.5.3", ["T0", "M104 S200", "M109", "M568 P0", "M290 Z1", "M116", "M563 P0"])
 @example("cartesian", "3.3", ['M291 P"" S2', "M292", "M291", "M25", "M24", "M0"])
+@example("cartesian", "3.5.3", ["M144 P-5", "M140 P-5 S1", "M140 P-5 H1", "M116 H-1 C-3"])
 @example("toolchanger", "3.6", ["M23 x", "M32", "M36", "M28", "M29", "M30", "M20 S2 R-5"])
 def test_any_lines(machine, firmware, lines):
     time = [0.0]
     board = Board(machine, firmware, clock=lambda: time[0])
     driven(board, time, "\n".join(lines).encode("utf-8", "replace") + b"\n")
     with board.lock:
-        json.dumps(board.model)
+        assert json.loads(json.dumps(board.model)).keys() == board.model.keys()
 
 
 @EXAMPLES

@@ -369,3 +369,9 @@ def test_all_at_once(bench):
     for _ in range(20):
         board.send("M105", ASK, "M408 S3")
         board.wait(1)
+    for name in FAULTS:
+        board.board.clear(name)
+    board.wait(3)
+    board.send("M999")
+    board.wait(10)
+    assert board.send("M110").endswith("ok\n")

@@ -124,6 +124,9 @@ def test_the_link_is_gone_meanwhile(link):
         board.unplug(0.3)
         wait_for(lambda: not os.path.lexists(link))
         wait_for(lambda: os.path.lexists(link))
+        with opened(link) as port:
+            port.write(b"M110\n")
+            assert port.readline() == b"ok\n"
 
 
 def test_baud(link):
@@ -143,6 +146,8 @@ def test_stopping_twice(link):
     terminal = PtyBoard(Board(), link).start()
     terminal.stop()
     terminal.stop()
+    assert terminal.error is None
+    assert not os.path.lexists(link)
 
 
 def test_a_stream_of_moves(link):
