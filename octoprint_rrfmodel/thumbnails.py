@@ -24,6 +24,9 @@ MOST_FILES = 200
 WAIT_SECONDS = 60.0
 """A big picture comes in some fifty pieces, between which the model has its turns."""
 
+ATTEMPTS = 2
+"""Times that a picture is fetched which comes broken: lines have no checksum here."""
+
 SHOWN_SECONDS = 300
 """How long a page need not ask again."""
 
@@ -102,6 +105,16 @@ class Thumbnails:
 
     async def _picture(self, path, thumbnail):
         """Return the picture, ``None`` where what the file has there is none."""
+        for _ in range(ATTEMPTS):
+            letters = await self._letters(path, thumbnail)
+            # QOI takes its time in plain Python
+            found = await asyncio.get_running_loop().run_in_executor(None, picture, letters)
+            if found is not None:
+                return found
+        return None
+
+    async def _letters(self, path, thumbnail):
+        """Return the picture's base64 text, as far as the board tells it."""
         letters, offset = "", thumbnail.offset
         while len(letters) <= MOST_LETTERS:
             piece = await self._questions.ask_about_the_card(PieceRequest(path, offset))
@@ -109,8 +122,7 @@ class Thumbnails:
             if piece.error or piece.next <= offset:
                 break
             offset = piece.next
-        # QOI takes its time in plain Python
-        return await asyncio.get_running_loop().run_in_executor(None, picture, letters)
+        return letters
 
     def _keep(self, key, found):
         # that a file has none is worth knowing, too

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import base64
+import struct
+import zlib
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -16,8 +18,10 @@ WIDEST = 320
 MOST_LETTERS = 120_000
 """Longest base64 text of a picture: a hundred pieces and more, each of them a question."""
 
-KINDS = ((b"\x89PNG\r\n\x1a\n", "image/png"), (b"\xff\xd8\xff", "image/jpeg"))
-"""How pictures begin that a browser shows, and what they are."""
+PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
+"""How the pictures begin that a browser shows."""
+
+JPEG_END = b"\xff\xd9"
 
 FORMATS = ("png", "jpeg", "jpg", "qoi")
 """``thumbnails[].format`` (3.5 GCodeFileInfo.h)."""
@@ -113,11 +117,33 @@ def decode_piece(text: str) -> Piece:
 
 
 def picture(letters: str) -> Picture | None:
-    """Return the picture that a base64 text is, ``None`` where it is none or is broken."""
+    """Return the picture that a base64 text is, ``None`` where it is none or is broken.
+
+    PNG has checksums; of JPEG and QOI it is seen whether they are whole, not whether each byte is
+    right.
+    """
     try:
         data = base64.b64decode(letters, validate=True)
         if data.startswith(QOI):
             return Picture("image/png", png_of(data))
     except ValueError:
         return None
-    return next((Picture(kind, data) for begin, kind in KINDS if data.startswith(begin)), None)
+    if data.startswith(PNG) and _is_whole_png(data):
+        return Picture("image/png", data)
+    if data.startswith(JPEG) and data.rstrip(b"\0").endswith(JPEG_END):
+        return Picture("image/jpeg", data)
+    return None
+
+
+def _is_whole_png(data: bytes) -> bool:
+    """Return whether each chunk up to the last one has its checksum (PNG specification, 5.3)."""
+    at = len(PNG)
+    while at + 12 <= len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        end = at + 8 + length
+        if data[end : end + 4] != struct.pack(">I", zlib.crc32(data[at + 4 : end])):
+            return False
+        if kind == b"IEND":
+            return True
+        at = end + 4
+    return False

@@ -81,11 +81,26 @@ def test_broken_qoi_is_none(data):
     assert picture(base64.b64encode(data).decode()) is None
 
 
-@pytest.mark.parametrize(
-    ("begin", "kind"), [(b"\x89PNG\r\n\x1a\n", "image/png"), (b"\xff\xd8\xff", "image/jpeg")]
-)
-def test_a_picture_is_what_its_bytes_say(begin, kind):
-    assert picture(base64.b64encode(begin + b"rest").decode()) == Picture(kind, begin + b"rest")
+def read(data):
+    return picture(base64.b64encode(data).decode())
+
+
+PNG = qoi.png_of(qoi_of(2, 2, 0xFE, 1, 2, 3, 0xC2))
+JPEG = b"\xff\xd8\xff\xe0 what is between \xff\xd9"
+
+
+@pytest.mark.parametrize(("data", "kind"), [(PNG, "image/png"), (JPEG, "image/jpeg")])
+def test_a_picture_is_what_its_bytes_say(data, kind):
+    assert read(data) == Picture(kind, data)
+    # slicers fill up
+    assert read(data + b"\0\0") == Picture(kind, data + b"\0\0")
+    for end in range(len(data)):
+        assert read(data[:end]) is None
+
+
+def test_a_png_that_is_wrong_in_one_byte_is_none():
+    for at in range(len(PNG)):
+        assert read(PNG[:at] + bytes((PNG[at] ^ 4,)) + PNG[at + 1 :]) is None
 
 
 @pytest.mark.parametrize("letters", ["", "QUJD", "no base64!", "PHN2Zz4=", "é"])
