@@ -7,6 +7,7 @@ import pytest
 from . import helpers
 
 FILES = "/plugin/rrfmodel/files"
+THUMBNAIL = "/plugin/rrfmodel/thumbnail"
 
 
 BOARD = {}
@@ -104,6 +105,24 @@ def test_lack_of_buffers_is_gone_over(server, board):
     server.wait_for(is_answered, 30, "the board to have room")
     assert statuses[-1] == 200
     assert names(server, "0:/macros/full") == ["One"]
+
+
+def test_the_card_is_left_alone_while_octoprint_streams_a_print(server, board):
+    server.upload("streamed.gcode", "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 500)
+    server.select_and_print("streamed.gcode")
+    server.wait_state("Printing")
+    helpers.wait_polls(server, 1)
+    before = len(board.board.received())
+    for endpoint, path in ((FILES, "0:/macros"), (THUMBNAIL, "0:/gcodes/square.gcode")):
+        response = server.get(endpoint, params={"path": path})
+        assert response.status_code == 409
+        assert "OctoPrint" in response.json()["error"]
+    assert server.state() == "Printing"
+    sent = helpers.commands(board)[before:]
+    assert not [line for line in sent if line.startswith(("M20", "M36"))]
+    server.post("/api/job", json={"command": "cancel"})
+    server.wait_state("Operational", 60)
+    assert server.get(FILES, params={"path": "0:/macros"}).status_code == 200
 
 
 def test_no_card(server, board):
