@@ -59,6 +59,8 @@ class LiveQuestions:
 
     def refusal_of_the_card(self):
         """Return why nothing can be asked about the card now, ``None`` where it can."""
+        if self._bridge.is_rrf and self._follower.protocol == "M408":
+            return gettext("Over USB the card can be read from RepRapFirmware 3.1 on.")
         return self.refusal_for_a_print() or self.refusal()
 
     def refusal_for_a_print(self):

@@ -8,7 +8,7 @@ import logging
 import threading
 
 from .rrf.machine import Machine
-from .rrf.profile import profile_values
+from .rrf.profile import MOST_EXTRUDERS, profile_values
 
 NO_OFFSET = (0.0, 0.0)
 
@@ -130,7 +130,8 @@ class PrinterProfile:
         self._logger.info("Changed profile %s: %s", profile["id"], values)
 
     def _needed(self):
-        return max(Machine(self._model()).tools, default=-1) + 1
+        numbers = Machine(self._model()).tools
+        return max((number for number in numbers if number < MOST_EXTRUDERS), default=-1) + 1
 
 
 def profile_of(comm, profiles):

@@ -108,7 +108,8 @@ def _tools(model: Model) -> dict[str, Any]:
     heaters = [tuple(array(tool.get("heaters"))) for tool in tools.values()]
     is_shared = len(heaters) > 1 and bool(heaters[0]) and len(set(heaters)) == 1
     # numbers may leave gaps, and the host counts from 0
-    count = {"extruder.count": max(tools) + 1} if max(tools) < MOST_EXTRUDERS else {}
+    reachable = [number for number in tools if number < MOST_EXTRUDERS]
+    count = {"extruder.count": max(reachable) + 1} if reachable else {}
     return {**count, "extruder.sharedNozzle": is_shared}
 
 

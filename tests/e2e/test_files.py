@@ -125,6 +125,14 @@ def test_the_card_is_left_alone_while_octoprint_streams_a_print(server, board):
     assert server.get(FILES, params={"path": "0:/macros"}).status_code == 200
 
 
+def test_a_card_of_old_firmware_is_not_read(server_factory, board_factory):
+    server = server_factory()
+    helpers.connect(server, board_factory(firmware="2.05"), 30)
+    response = server.get(FILES, params={"path": "0:/macros"})
+    assert response.status_code == 409
+    assert "3.1" in response.json()["error"]
+
+
 def test_no_card(server, board):
     board.board.execute("M22", channel="http")
     try:

@@ -176,6 +176,20 @@ def test_profile(server, board_factory, profile):
     assert extruder(server) == profile
 
 
+def test_no_more_extruders_than_octoprint_takes(server, board_factory, profile):
+    board = board_factory(machine="toolchanger")
+    with board.board.lock:
+        tools = board.board.data["tools"]
+        numbers = [tool["number"] for tool in tools if tool]
+        tools += [*[None] * (120 - len(tools)), {**tools[-1], "number": 120}]
+    helpers.connect(server, board)
+    helpers.wait_ready(server)
+    assert command(server, "fix_profile").status_code == 204
+    assert extruder(server)["count"] == max(numbers) + 1
+    server.wait_for(lambda: "profile_tools" not in warnings(server), 5, "the warning to go")
+    assert command(server, "restore_settings").status_code == 204
+
+
 @pytest.mark.parametrize(
     "change",
     [
