@@ -243,8 +243,8 @@ class Parts:
         self.neighbours.changed(taken.changes)
         self._card.on_news()
         tool = self._model().get("state", {}).get("currentTool")
-        # a reply asked for before OctoPrint's own last tool command says nothing about it
-        if isinstance(tool, int) and asked_at > self.bridge.tool_command_at:
+        # what was asked for before OctoPrint's own last tool command says nothing about it
+        if isinstance(tool, int) and self._poller.asked_at > self.bridge.tool_command_at:
             self.display.follow_tool(tool)
         self.protection.replied(asked_at)
 

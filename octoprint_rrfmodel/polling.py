@@ -57,8 +57,9 @@ class Poller:
         self.query_for = self._queries.ask_for
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
+        self._live_asked_at = {}
         self.asked_at = 0.0
-        """When the last live reply was asked for."""
+        """When the live values of the model were asked for, the oldest of them; for any thread."""
         self.polls = 0
         self.bytes = 0
 
@@ -78,6 +79,8 @@ class Poller:
             fail(self._poll.query, GONE)
         self._poll = None
         self.applied_at = None
+        self._live_asked_at.clear()
+        self.asked_at = 0.0
         self._follower.forget()
 
     def tick(self):
@@ -186,10 +189,19 @@ class Poller:
         else:
             self._pace.answered(len(text), self._clock() - asked_at)
             self.applied_at = self._clock()
-            if not isinstance(poll.request, ModelRequest) or poll.request.flags == LIVE_FLAGS:
-                self.asked_at = asked_at
+            self._note_live(poll.request, asked_at)
             self._changed(taken, asked_at)
         self._finish_if_over()
+
+    def _note_live(self, request, asked_at):
+        """Note when live values were asked for: all of them, or one key of a board without room."""
+        if not isinstance(request, ModelRequest):
+            self._live_asked_at = {"": asked_at}
+        elif request.flags == LIVE_FLAGS:
+            if not request.key:
+                self._live_asked_at.clear()
+            self._live_asked_at[request.key] = asked_at
+        self.asked_at = min(self._live_asked_at.values(), default=0.0)
 
     def card_refused(self):
         """Note that the board would not answer a question about the card."""

@@ -192,6 +192,32 @@ def test_tool_changed_by_octoprint_is_not_taken_back(server, board_factory):
         assert changes(push) == order
 
 
+def test_tool_changed_by_octoprint_is_not_taken_back_by_news_of_other_things(server, board_factory):
+    """A key that is asked for behind the change tells nothing of the tool."""
+    board = board_factory(machine="toolchanger", speed=50)
+    helpers.connect(server, board)
+    helpers.wait_ready(server)
+    order = [1, 3, 10, 7]
+    with PushListener(server, ADMIN) as push:
+        for number in order:
+            before = len(board.board.received())
+            for key in ("fans", "boards", "sensors", "inputs", "move", "network"):
+                board.board.bump(key)
+            server.wait_for(
+                lambda before=before: [
+                    line
+                    for line in helpers.commands(board)[before:]
+                    if line.startswith('M409 K"boards"')
+                ],
+                10,
+                "one of the keys to be asked for",
+            )
+            server.commands(f"T{number}")
+            helpers.wait_value(server, "state.currentTool", number, 15)
+            helpers.wait_polls(server, 2)
+        assert changes(push) == order
+
+
 ERRORS = {
     "unhomed": "G1 X10",
     "cold": "T0\nG1 E5",
