@@ -50,7 +50,8 @@ def _server(user: User) -> OctoPrintServer:
         port=port,
         plugins_config={
             "_disabled": [name for name in DISABLED_PLUGINS if name != "pluginmanager"],
-            "rrfmodel": {"simulator": {"enabled": True}},
+            # with the wizard, as whoever installs the plugin sees it
+            "rrfmodel": {"simulator": {"enabled": True}, "wizard_seen": False},
         },
         autoconnect=(SERIAL_PORT, BAUDRATE),
         profile={"name": "Simulated printer", "model": "RepRapFirmware, one tool, heated bed"},

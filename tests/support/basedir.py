@@ -150,6 +150,8 @@ def write_basedir(
     """
     basedir.mkdir(parents=True, exist_ok=True)
     _dump(basedir / "config.yaml", config)
+    # left by a start that was broken off; without plugins there would be nothing to see
+    (basedir / ".incomplete_startup").unlink(missing_ok=True)
     hasher = argon2.PasswordHasher()
     accounts = {
         user.name: {

@@ -232,7 +232,7 @@ $(function () {
         self.volumes = RRFModel.rows(() =>
             numbered(model("volumes")).map((found) => ({
                 key: found.index,
-                name: found.item.name || String(found.index),
+                name: found.item.name || found.item.path || String(found.index),
                 text: found.item.mounted
                     ? _.sprintf(gettext("%(free)s of %(size)s free"), {
                           free: gigabytes(found.item.freeSpace),
