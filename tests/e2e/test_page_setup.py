@@ -118,6 +118,21 @@ def test_settings_page(page, server, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_settings_page_that_is_open_when_the_machine_comes(page, server, board, page_errors):
+    assert command(server, command="wizard_done").status_code == 204
+    helpers.disconnect(server)
+    open_octoprint(page, server, ADMIN)
+    page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.show('#settings_plugin_rrfmodel')")
+    pane = page.locator("#rrfmodel_setup")
+    part(pane, "needed").first.wait_for(timeout=15_000)
+    expect(part(pane, "difference")).to_have_count(0)
+    helpers.connect(server, board)
+    expect(part(pane, "difference")).not_to_have_count(0, timeout=20_000)
+    helpers.disconnect(server)
+    expect(part(pane, "difference")).to_have_count(0, timeout=20_000)
+    assert own_errors(page_errors) == []
+
+
 def test_rows_of_the_sidebar_fold_away(page, server):
     assert command(server, command="wizard_done").status_code == 204
     server.set_setting("plugins.rrfmodel.sidebar.axes", False)

@@ -112,6 +112,10 @@ $(function () {
         self.restore = () => changeSettings("restore_settings");
 
         self.onSettingsShown = self.requestData;
+        const isMachineReady = ko.pureComputed(() => !!core.status().ready);
+        isMachineReady.subscribe(function () {
+            if ($("#settings_dialog").is(":visible")) self.requestData();
+        });
 
         //~~ the first-run wizard
 
