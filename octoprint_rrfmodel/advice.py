@@ -1,11 +1,17 @@
 """What a person should know or change: codes, sentences, and the command that mends it."""
 
 from .notices import paused_text, waiting_text, warning_text
-from .rrf.alerts import ADVICE, FAULT, LEVELS, RESET, UNANSWERABLE, WARNING, alerts
+from .rrf.alerts import ADVICE, FAULT, LEVELS, POSITION_LOST, RESET, UNANSWERABLE, WARNING, alerts
 
 PRINT_PAUSED = "print_paused"
 
-ALL_LEVELS = {**LEVELS, RESET.code: FAULT, PRINT_PAUSED: FAULT, "mqtt_topic": WARNING}
+ALL_LEVELS = {
+    **LEVELS,
+    RESET.code: FAULT,
+    POSITION_LOST.code: FAULT,
+    PRINT_PAUSED: FAULT,
+    "mqtt_topic": WARNING,
+}
 """How much each warning matters; those that aren't here are advice."""
 
 ORDER = (FAULT, WARNING, ADVICE)

@@ -8,7 +8,7 @@ from octoprint.access.permissions import Permissions
 
 from .api import refusal
 from .notices import waiting_text, warning_text
-from .rrf.alerts import RESET, faults, is_resumable
+from .rrf.alerts import OFF, POSITION_LOST, RESET, faults, is_resumable, is_unhomed
 from .rrf.errors import guarded_alert
 
 JOB_ENDPOINT = "api.controlJob"
@@ -42,6 +42,7 @@ class PrintGuard:
         self._is_on = is_on
         self._tell = tell
         self._was_reset = False
+        self._was_off = False
         self._told = frozenset()
         self._paused_for = None
         # events come late: the next pause may be under way before the end of the last one is told
@@ -52,6 +53,8 @@ class PrintGuard:
         if not self.has_print():
             return []
         found = [alert for alert in faults(self._model()) if self._is_on(alert.code)]
+        if self._was_off and is_unhomed(self._model()):
+            found.append(POSITION_LOST)
         return [RESET, *found] if self._was_reset else found
 
     def pause(self):
@@ -71,13 +74,15 @@ class PrintGuard:
     def look(self):
         """Pause if there is a reason to; tell each reason once."""
         causes = self.causes()
+        self._was_off |= any(cause.code == OFF for cause in causes)
         self._told &= frozenset(causes)
         printer = self._printer()
         # what has begun to end or to pause needs nothing; cancelling is what a person wants
         if not causes or printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
             return
-        # last: OctoPrint counts a pause that has only begun as printing, and may be through by now
-        if not printer.is_printing():
+        # last: OctoPrint counts a pause that has only begun as printing, and may be through by now;
+        # 2.0 counts the pause itself as printing, too
+        if not printer.is_printing() or printer.is_paused():
             return
         self._pausing_for = (tuple(causes), "")
         printer.pause_print()
@@ -106,6 +111,8 @@ class PrintGuard:
         """Note that somebody has resumed the print: it is paused again if it may not go on."""
         self._told = frozenset()
         self._paused_for = None
+        # what a file does to its axes at its end is nobody's concern
+        self._was_off &= is_unhomed(self._model())
         if self._pausing_for is not None and not self._pausing_for[1]:
             # a box may be what stops the print next, a cause would be found again
             self._pausing_for = None
@@ -113,7 +120,7 @@ class PrintGuard:
 
     def ended(self):
         """Note that there is no print any more, or another one."""
-        self._was_reset = False
+        self._was_reset = self._was_off = False
         self._told = frozenset()
         self._paused_for = self._pausing_for = None
 

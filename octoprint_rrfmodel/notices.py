@@ -77,6 +77,10 @@ def _of_the_machine():
         "reset": gettext(
             "The board was reset during the print, which can't go on. Cancel it, then home."
         ),
+        "position_lost": gettext(
+            "The motors had no supply voltage, and the machine has lost its position. Home what can"
+            " be homed beside the print, or set the position by G92."
+        ),
         "message_box_unanswerable": gettext(
             "The machine waits for an answer that this firmware does not take over USB. Answer on"
             " the machine's own page or panel, or reset the machine."

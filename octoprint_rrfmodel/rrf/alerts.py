@@ -35,6 +35,9 @@ ONLY_OWN_PRINTS = 1
 """``sensors.filamentMonitors[].enableMode`` of a monitor that acts only while the board itself
 prints (M591 S1; told from 3.5 on)."""
 
+OFF = "off"
+"""``state.status``, and code, of motors without supply voltage."""
+
 LOSES_BOXES = ((3, 5, 0), (3, 6, 0))
 """From and to which firmware nobody can answer a box that USB waits for: M292 does not reach it
 (Duet3D/RepRapFirmware #1141; fixed in 3.6.1)."""
@@ -145,8 +148,8 @@ CONDITIONS = (
         "After M112 next to nothing is accepted until a reset (3.5 GCodes2.cpp:585).",
     ),
     Condition(
-        "off",
-        _status("off"),
+        OFF,
+        _status(OFF),
         True,
         True,
         "The motors have no supply voltage (3.5 Platform.cpp:1522).",
@@ -240,6 +243,10 @@ CONDITIONS = (
 RESET = Alert("reset")
 """The board has begun anew: nothing of a print that was under way holds any more."""
 
+POSITION_LOST = Alert("position_lost")
+"""The supply of the motors was off during a print, and no axis is homed since (3.5 Platform.cpp,
+Spin). The host's lines would go on, each refused, until the file is through."""
+
 UNANSWERABLE = Alert("message_box_unanswerable")
 
 GUARDS = (*(row.code for row in CONDITIONS if row.stops_a_print), RESET.code)
@@ -247,7 +254,7 @@ GUARDS = (*(row.code for row in CONDITIONS if row.stops_a_print), RESET.code)
 
 LEVELS = {row.code: row.level for row in CONDITIONS}
 
-_RESUMABLE = {row.code: row.resumable for row in CONDITIONS}
+_RESUMABLE = {**{row.code: row.resumable for row in CONDITIONS}, POSITION_LOST.code: True}
 
 
 def alerts(model: Model, is_printing: bool = False) -> list[Alert]:
@@ -263,6 +270,14 @@ def alerts(model: Model, is_printing: bool = False) -> list[Alert]:
 def faults(model: Model) -> list[Alert]:
     """Return what a print that the host streams can't go on with."""
     return [alert for alert in alerts(model, is_printing=True) if alert.code in GUARDS]
+
+
+def is_unhomed(model: Model) -> bool:
+    """Return whether X, Y or Z is known not to be homed."""
+    axes = map(mapping, array(mapping(model.get("move")).get("axes")))
+    return any(
+        axis.get("letter") in ("X", "Y", "Z") and axis.get("homed") is False for axis in axes
+    )
 
 
 def is_resumable(alert: Alert) -> bool:

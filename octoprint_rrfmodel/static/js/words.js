@@ -46,6 +46,9 @@ $(function () {
                 "The machine was stopped by an emergency stop. Restart it with M999 or its power switch."
             ),
             off: gettext("The motors have no supply voltage."),
+            position_lost: gettext(
+                "The motors had no supply voltage, and the machine has lost its position. Home what can be homed beside the print, or set the position by G92."
+            ),
             reset: gettext(
                 "The board was reset during the print, which can't go on. Cancel it, then home."
             ),
