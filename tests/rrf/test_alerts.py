@@ -8,12 +8,14 @@ from octoprint_rrfmodel.rrf.alerts import (
     FAULT,
     GUARDS,
     LEVELS,
+    POSITION_LOST,
     RESET,
     WARNING,
     Alert,
     alerts,
     faults,
     is_resumable,
+    is_unhomed,
     loses_boxes,
 )
 
@@ -172,6 +174,23 @@ def test_what_may_go_on():
     assert not is_resumable(RESET)
     assert not is_resumable(Alert("halted"))
     assert is_resumable(Alert("heater_fault", (1,)))
+    assert is_resumable(POSITION_LOST)
+
+
+@pytest.mark.parametrize(
+    ("axes", "unhomed"),
+    [
+        (None, False),
+        ([], False),
+        ([None, {"letter": 5, "homed": False}], False),
+        ([{"letter": "X"}, {"letter": "Y", "homed": True}], False),
+        ([{"letter": "X", "homed": True}, {"letter": "Z", "homed": False}], True),
+        # a rotary axis or a coupler need not be
+        ([{"letter": "Z", "homed": True}, {"letter": "C", "homed": False}], False),
+    ],
+)
+def test_position_that_is_not_known(axes, unhomed):
+    assert is_unhomed({"move": {"axes": axes}}) is unhomed
 
 
 def test_table():
