@@ -25,12 +25,17 @@ def take(page, server, board):
         board.board.execute(line, channel="http")
     helpers.wait_value(server, "move.axes[].homed", all, 60)
     board.board.execute('M32 "square.gcode"', channel="http")
+    # so that it is still printed in the last picture
+    board.board.speed = 2.0
     chromium.open_octoprint(page, server, ADMIN, "/#tab_plugin_rrfmodel/chart")
     page.wait_for_timeout(25_000)
     for name in VIEWS:
         page.locator(f"[data-test=view-{name}]").click()
         page.wait_for_timeout(3_000)
         shot = page.locator("#tab_plugin_rrfmodel")
+        if name == "chart":
+            page.get_by_role("button", name="5 min", exact=True).click()
+            page.wait_for_timeout(1_500)
         if name == "model":
             page.locator("[data-test=find]").fill("heaters")
             page.wait_for_timeout(1_500)

@@ -220,6 +220,8 @@ $(function () {
                     xaxis: {
                         mode: "time",
                         timezone: "browser",
+                        // about as many; of more the labels with seconds would touch
+                        ticks: 5,
                         min: seen.from * 1000,
                         max: seen.to * 1000
                     },
