@@ -7,6 +7,7 @@ SCRIPTS = (
     "core",
     "history",
     "tree",
+    "chart_parts",
     # regions of the page, each on its own
     "notifications",
     "sidebar",

@@ -3,15 +3,11 @@ $(function () {
     const CHOICE = "plugin.rrfmodel.chart";
     const SHORTEST = 30;
     const LONGEST = 3600;
-    /** Samples that are drawn of a series before several become one. */
-    const MOST_SAMPLES = 250;
     const COLOURS = 10;
     /** What is shown until somebody chooses otherwise. */
     const SHOWN = {current: true, target: true, pwm: false};
     const AXES = {"°C": 1, "%": 3};
     const POWER_AXIS = 2;
-    /** Pixels from which on a movement is a selection. */
-    const LEAST_DRAG = 8;
 
     /** What `use` returns; without storage the choice lasts as long as the page. */
     function ofStorage(use) {
@@ -20,54 +16,6 @@ $(function () {
         } catch (error) {
             return null;
         }
-    }
-
-    /** Points from one index to another: of many samples the least and the greatest of each few. */
-    function pointsOf(history, values, first, last, factor) {
-        const points = [];
-        const step = Math.ceil((last - first) / MOST_SAMPLES);
-        const point = (place) => [history.times[place] * 1000, values[place] * factor];
-        let place = first;
-        while (place < last) {
-            // the same samples are taken together when the chart moves on
-            const end = Math.min(last, place + step - ((place + history.dropped) % step));
-            let least = -1;
-            let most = -1;
-            let gap = -1;
-            for (; place < end; place++) {
-                if (values[place] === null) gap = place;
-                else {
-                    if (least < 0 || values[place] < values[least]) least = place;
-                    if (most < 0 || values[place] > values[most]) most = place;
-                }
-            }
-            if (least >= 0) points.push(point(Math.min(least, most)));
-            if (least !== most) points.push(point(Math.max(least, most)));
-            if (gap >= 0) points.push([history.times[gap] * 1000, null]);
-        }
-        return points;
-    }
-
-    /** Names of heaters by their numbers, after the tools, beds and chambers that they are of. */
-    function heaterNames(model) {
-        const names = {};
-        const heat = model("heat") || {};
-        [
-            {slots: heat.chamberHeaters, title: gettext("Chamber")},
-            {slots: heat.bedHeaters, title: gettext("Bed")}
-        ].forEach((kind) =>
-            (kind.slots || []).forEach(function (heater, slot) {
-                if (heater >= 0) names[heater] = slot ? kind.title + " " + slot : kind.title;
-            })
-        );
-        (model("tools") || []).forEach(function (tool) {
-            if (!tool) return;
-            const title = tool.name || _.sprintf(gettext("Tool %(number)s"), tool);
-            (tool.heaters || []).forEach(function (heater, place) {
-                if (!names[heater]) names[heater] = place ? title + " (" + (place + 1) + ")" : title;
-            });
-        });
-        return names;
     }
 
     function RrfModelChartViewModel(parameters) {
@@ -152,7 +100,7 @@ $(function () {
             function () {
                 if (!isOpen()) return self.rows ? self.rows.peek().map((row) => ({key: row.key})) : [];
                 history.revision();
-                const names = heaterNames(model);
+                const names = RRFModel.heaterNames(model);
                 const time = pointed();
                 const place =
                     time === null ? history.times.length - 1 : _.sortedIndex(history.times, time);
@@ -201,7 +149,7 @@ $(function () {
                 const isPower = series.what === "pwm";
                 const isTarget = series.what === "target";
                 data.push({
-                    data: pointsOf(history, series.values, first, last, isPower ? 100 : 1),
+                    data: RRFModel.pointsOf(history, series.values, first, last, isPower ? 100 : 1),
                     color: style.getPropertyValue(colourOf(series.kind + series.number)).trim(),
                     yaxis: isPower ? POWER_AXIS : AXES[series.unit] || 3,
                     lines: {show: !isTarget, lineWidth: isPower ? 1 : 2, fill: isPower ? 0.08 : false},
@@ -262,7 +210,7 @@ $(function () {
             if (isOpen()) draw();
         });
 
-        //~~ pointer: look at a time, select a part by dragging
+        //~~ pointer
 
         const timeAt = function (event) {
             const x = event.clientX - element.getBoundingClientRect().left;
@@ -271,49 +219,18 @@ $(function () {
             return Math.min(Math.max(time, seen.from), seen.to);
         };
 
-        const follow = function (mark) {
-            let from = null;
-            let at = 0;
-
-            const select = function (event) {
-                const left = element.getBoundingClientRect().left;
-                const width = Math.abs(event.clientX - at);
-                mark.style.left = Math.min(at, event.clientX) - left + "px";
-                mark.style.width = width + "px";
-                mark.hidden = width < LEAST_DRAG;
-            };
-            const leave = function () {
-                from = null;
-                mark.hidden = true;
-            };
-
-            element.addEventListener("pointerdown", function (event) {
-                if (!plot || event.button) return;
-                from = timeAt(event);
-                at = event.clientX;
-                element.setPointerCapture(event.pointerId);
-            });
-            element.addEventListener("pointermove", function (event) {
-                if (!plot) return;
-                pointed(timeAt(event));
-                if (from !== null) select(event);
-            });
-            element.addEventListener("pointerup", function (event) {
-                const start = from;
-                const isSelection = start !== null && Math.abs(event.clientX - at) >= LEAST_DRAG;
-                leave();
-                if (!isSelection) return;
-                const stop = timeAt(event);
-                look((start + stop) / 2, Math.abs(start - stop));
-            });
-            element.addEventListener("pointercancel", leave);
-            element.addEventListener("pointerleave", () => pointed(null));
-            element.addEventListener("dblclick", () => end(null));
-        };
-
         self.onAfterBinding = function () {
             element = document.querySelector("#rrfmodel_chart .rrfmodel-plot");
-            follow(document.querySelector("#rrfmodel_chart .rrfmodel-selection"));
+            RRFModel.followPointer(
+                element,
+                document.querySelector("#rrfmodel_chart .rrfmodel-selection"),
+                {
+                    time: (event) => (plot ? timeAt(event) : null),
+                    pointed: pointed,
+                    selected: (one, other) => look((one + other) / 2, Math.abs(one - other)),
+                    released: () => end(null)
+                }
+            );
             draw();
         };
 
