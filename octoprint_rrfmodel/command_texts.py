@@ -104,6 +104,7 @@ def _of_boxes():
             "The machine waits for an answer that this firmware does not take over USB. Answer on"
             " the machine's own page or panel, or reset the machine."
         ),
+        "box_answered": gettext("This message has just been answered. Wait for the next one."),
         "not_cancellable": gettext("This message can't be cancelled. Answer it with ok."),
         "box_wants_value": gettext("This message wants an answer in the parameter value."),
         "box_takes_no_value": gettext("This answer has no value. Leave the parameter value out."),

@@ -40,7 +40,7 @@ class PluginCommands:
         self._commands = {
             **{row.name: Command(CONTROL, to_machine(row.name)) for row in COMMANDS},
             "fix_settings": Command("SETTINGS", lambda parameters: fix_settings()),
-            "restore_settings": Command("SETTINGS", lambda parameters: restore()),
+            "restore_settings": Command("SETTINGS", restore),
             "fix_profile": Command("SETTINGS", fix_profile),
             "wizard_done": Command("SETTINGS", wizard_done),
         }

@@ -4,7 +4,7 @@ from .command_texts import command_text
 from .printer_profile import profile_of
 from .rate import Rate
 from .rrf.blocking import blocks
-from .rrf.commands import Refusal, Situation, root_of, translate
+from .rrf.commands import Refusal, Situation, identity_of_box, root_of, translate
 from .rrf.gcode import words
 from .tags import COMMAND_TAG
 
@@ -15,6 +15,9 @@ OWN_JOB = {
 }
 """Action of ``job`` to the method of OctoPrint's printer that does it to a print from the card, and
 whether it does anything in the connection's state."""
+
+ANSWER_SECONDS = 10.0
+"""Time after which an answer to a message box is no longer waited for."""
 
 SLOTS = (
     ("M140 ", "heatedBed", "bedHeaters"),
@@ -42,6 +45,8 @@ class MachineCommands:
         self._recovery = recovery
         self._end_job = end_job
         self._look = look
+        self._clock = clock
+        self._answered, self._answered_at = None, 0.0
         self.rate = Rate(clock)
         """Counts what others may ask of the machine."""
 
@@ -82,6 +87,9 @@ class MachineCommands:
                 return
             if parameters["action"] == "cancel":
                 lines = self._end_job()
+        if name == "message_box":
+            self._answered = identity_of_box(machine.model)
+            self._answered_at = self._clock()
         carried = [self._carried(line, machine) for line in lines]
         self._printer().commands(carried, tags={COMMAND_TAG})
         # what has come of it is asked at once where that costs nobody time: a print's lines would
@@ -105,7 +113,18 @@ class MachineCommands:
             octoprint_prints=bridge.has_a_print(),
             octoprint_is_paused=comm is not None and comm.isPaused(),
             answers_boxes=not self._box.is_waiting,
+            box_is_answered=self._is_answered(),
         )
+
+    def _is_answered(self):
+        """Return whether the model still shows the box that was answered last.
+
+        Before 3.5 an answer names no box: a second one would be for the next, which nobody has
+        read yet.
+        """
+        if self._answered is None or self._clock() - self._answered_at > ANSWER_SECONDS:
+            return False
+        return identity_of_box(self._machine().model) == self._answered
 
     def _carried(self, line, machine):
         """Return a line in a form that OctoPrint sends and shows nothing wrong of.

@@ -218,7 +218,8 @@ class Parts:
 
     def _notice(self, code, detail):
         text = notice_text(code, detail)
-        self._host.tell_pages({"type": "notice", "code": code, "text": text})
+        notice = {"type": "notice", "code": code, "detail": detail, "text": text}
+        self._host.tell_pages(notice)
 
     ##~~ on the worker
 

@@ -119,7 +119,7 @@ class Protection:
             self.machine,
             self._settings.fix,
             self.setup.fix_profile,
-            self.restore,
+            self.setup.restore,
             self.setup.wizard_done,
         )
         self.refusals = [

@@ -66,6 +66,14 @@ class Setup:
             return 400, gettext("The machine says nothing of the field %(field)s.", field=field)
         return None
 
+    def restore(self, parameters):
+        """Set back what was changed of OctoPrint's own; a print goes by it."""
+        if self._prints():
+            return 409, gettext("Something is being printed. Set it back afterwards.")
+        self._settings.restore()
+        self._profile.restore()
+        return None
+
     def wizard_done(self, parameters):
         """Note that somebody has been led through, and wants no more of it."""
         self._own().set_boolean(SEEN, True)

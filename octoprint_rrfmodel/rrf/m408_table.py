@@ -52,6 +52,11 @@ def _fan_fraction(percent: float) -> float | None:
     return None if percent < 0 else _fraction(percent)
 
 
+def _milliseconds(seconds: float) -> int:
+    """What is told in seconds here is told in milliseconds by M409."""
+    return round(seconds * 1000)
+
+
 def _per_minute(per_second: float) -> float:
     return round(per_second * 60, 3)
 
@@ -93,7 +98,7 @@ LEGACY = (
     Row("fraction_printed", None),
     Row("msgBox.mode", "state.messageBox.mode"),
     Row("msgBox.seq", "state.messageBox.seq"),
-    Row("msgBox.timeout", "state.messageBox.timeout"),
+    Row("msgBox.timeout", "state.messageBox.timeout", _milliseconds),
     Row("msgBox.controls", "state.messageBox.axisControls"),
     Row("msgBox.msg", "state.messageBox.message"),
     Row("msgBox.title", "state.messageBox.title"),
@@ -127,7 +132,7 @@ STATUS_FIELDS = (
     Row("output.message", "state.displayMessage"),
     Row("output.msgBox.mode", "state.messageBox.mode"),
     Row("output.msgBox.seq", "state.messageBox.seq"),
-    Row("output.msgBox.timeout", "state.messageBox.timeout"),
+    Row("output.msgBox.timeout", "state.messageBox.timeout", _milliseconds),
     Row("output.msgBox.controls", "state.messageBox.axisControls"),
     Row("output.msgBox.msg", "state.messageBox.message"),
     Row("output.msgBox.title", "state.messageBox.title"),

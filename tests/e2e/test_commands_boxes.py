@@ -96,6 +96,25 @@ def test_which_box_is_meant(machine):
     assert response.status_code == 409
 
 
+def test_second_answer_does_not_reach_the_next_box(machine):
+    seq = opened(machine, 'M291 P"Take the probe off" S2')
+    machine.board.execute('M291 P"Heat and load?" S3', channel="aux")
+    # as the page sends it; before 3.5 the number doesn't go out
+    answer = {"command": "message_box", "action": "ok", "seq": seq}
+    assert machine.server.post(COMMAND, json=answer).status_code == 204
+    response = machine.server.post(COMMAND, json=answer)
+    assert response.status_code == 409
+    assert response.json()["error"].endswith(".")
+    helpers.wait_value(machine.server, "state.messageBox.message", "Heat and load?", 10)
+    helpers.wait_polls(machine.server, 2)
+    assert machine.board.boxes.current["message"] == "Heat and load?"
+    # and that one is answered once somebody has seen it
+    answer["seq"] = machine.board.boxes.current["seq"]
+    assert machine.server.post(COMMAND, json=answer).status_code == 204
+    machine.server.wait_for(lambda: machine.board.boxes.current is None, 5, "the answer")
+    helpers.wait_value(machine.server, "state.messageBox", None, 10)
+
+
 def test_answers_that_do_not_fit(machine):
     if not has_values(machine):
         seq = opened(machine, 'M291 P"Go on?" S2')

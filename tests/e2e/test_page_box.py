@@ -1,5 +1,7 @@
 """Message boxes on the page: each mode answered, closed elsewhere, for those who may only look."""
 
+import re
+
 import pytest
 from playwright.sync_api import expect
 
@@ -57,15 +59,86 @@ def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
     ask(board, 'P"Wait" S0 T4')
     wait_text(part(box, "box-message"), "Wait")
     wait_text(part(box, "box-time"), "Closes by itself")
-    assert box.locator("button:visible").count() == 0
+    assert re.fullmatch(r"Closes by itself in [1-4] s", part(box, "box-time").inner_text())
+    assert box.locator("button:visible").all_inner_texts() == ["Put aside"]
     assert is_closed(server, board, box)
 
 
 def test_cancel_by_escape(page, box, server, board):
     ask(board, 'P"Sure?" S3')
     wait_text(part(box, "box-message"), "Sure?")
+    expect(part(box, "box-ok")).to_be_enabled()
     page.keyboard.press("Escape")
     assert is_closed(server, board, box)
+
+
+@pytest.mark.parametrize("key", ["Escape", "Enter"])
+def test_key_for_something_else_answers_nothing(page, box, server, board, key):
+    page.evaluate(
+        """(key) => $("#rrfmodel_box_dialog").one("shown", () => {
+            const event = new KeyboardEvent("keydown", {key: key, bubbles: true});
+            document.activeElement.dispatchEvent(event);
+            if (key === "Enter") $("#rrfmodel_box_dialog form").trigger("submit");
+        })""",
+        key,
+    )
+    ask(board, 'P"Is the bed clear?" S3')
+    wait_text(part(box, "box-message"), "Is the bed clear?")
+    expect(part(box, "box-ok")).to_be_enabled()
+    helpers.wait_polls(server, 2)
+    assert board_value(board, "state.messageBox.message") == "Is the bed clear?"
+    # and the focus is on no button
+    assert page.evaluate("document.activeElement.tagName") == "H3"
+
+
+def test_answer_locks_until_there_is_news(page, box, server, board):
+    """What is pressed twice must not answer the next box."""
+    ask(board, 'P"First" S3')
+    ask(board, 'P"Second" S3', "aux")
+    wait_text(part(box, "box-message"), "First")
+    expect(part(box, "box-ok")).to_be_enabled()
+    page.evaluate(
+        """() => {
+            const ok = document.querySelector("#rrfmodel_box_dialog [data-test=box-ok]");
+            ok.click();
+            ok.click();
+        }"""
+    )
+    expect(part(box, "box-ok")).to_be_disabled()
+    wait_text(part(box, "box-message"), "Second")
+    helpers.wait_polls(server, 2)
+    assert board_value(board, "state.messageBox.message") == "Second"
+
+
+def test_put_aside_and_shown_again(page, box, server, board):
+    ask(board, f'P"Look at it" R"{MARKUP}" S2')
+    wait_text(part(box, "box-message"), "Look at it")
+    part(box, "box-aside").click()
+    expect(box).to_be_hidden()
+    again = page.locator("[data-test=box-again]")
+    expect(again).to_contain_text(MARKUP)
+    # the page behind it can be used
+    page.locator("#temp_link a").click()
+    helpers.wait_polls(server, 2)
+    expect(box).to_be_hidden()
+    assert board_value(board, "state.messageBox.message") == "Look at it"
+    again.click()
+    expect(box).to_be_visible()
+    expect(again).to_be_hidden()
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+
+
+def test_put_aside_and_answered_elsewhere(page, box, server, board):
+    ask(board, 'P"Look at it" S2')
+    wait_text(part(box, "box-message"), "Look at it")
+    part(box, "box-aside").click()
+    board.board.execute("M292", channel="telnet")
+    expect(page.locator("[data-test=box-again]")).to_be_hidden(timeout=15_000)
+    # the next one comes by itself
+    ask(board, 'P"Another" S2')
+    wait_text(part(box, "box-message"), "Another")
+    expect(box).to_be_visible()
 
 
 def test_what_can_not_be_cancelled_stays(page, box, server, board):
@@ -83,6 +156,11 @@ def test_choices(box, server, board):
     choices = part(box, "box-choice")
     assert choices.all_inner_texts() == ["one", "two", "three"]
     expect(choices.nth(1)).to_have_class("btn btn-primary")
+    # whoever goes there by the keyboard stays there
+    expect(choices.nth(2)).to_be_enabled()
+    choices.nth(2).focus()
+    helpers.wait_polls(server, 3)
+    expect(choices.nth(2)).to_be_focused()
     choices.nth(2).click()
     assert is_closed(server, board, box)
     assert any("R{2}" in line or "R2" in line for line in sent(server))
@@ -150,7 +228,7 @@ def test_who_may_not_control_sees_and_can_not_answer(page, server, board):
     ask(board, 'P"Look" S5 L1 H9')
     wait_text(part(box, "box-message"), "Look")
     wait_text(part(box, "box-readonly"), "not answer")
-    controls = box.locator("button:visible, input:visible")
+    controls = box.locator("button:visible:not([data-test=box-aside]), input:visible")
     assert {control.is_disabled() for control in controls.all()} == {True}
 
 

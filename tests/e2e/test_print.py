@@ -41,9 +41,11 @@ def distinct_moves(count, first=0):
 
 
 def answers_in_order(server):
-    """Return the plugin's requests and the replies to them, as serial.log has them."""
+    """Return the plugin's requests and the replies to them since OctoPrint connected last."""
     found = []
-    for line in server.serial_log().splitlines():
+    # what an earlier board was asked last may never have been answered
+    connection = server.serial_log().rpartition('to "Connecting"')[2]
+    for line in connection.splitlines():
         if match := re.search(r" - (?:Send: |>>> )(?:N\d+ )?(M409[^*]*)", line):
             found.append(("asked", match[1]))
         elif match := re.search(r' - (?:Recv: |<<< )(\{"key":"[^"]*","flags":"[^"]*")', line):

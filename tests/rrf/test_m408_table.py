@@ -29,7 +29,7 @@ LEGACY_ROWS = {
     "fraction_printed": ({"fraction_printed": 0.5}, KEPT, 0.5),
     "msgBox.mode": ({"msgBox.mode": 2}, "state.messageBox.mode", 2),
     "msgBox.seq": ({"msgBox.seq": 7}, "state.messageBox.seq", 7),
-    "msgBox.timeout": ({"msgBox.timeout": 5.0}, "state.messageBox.timeout", 5.0),
+    "msgBox.timeout": ({"msgBox.timeout": 5.0}, "state.messageBox.timeout", 5000),
     "msgBox.controls": ({"msgBox.controls": 4}, "state.messageBox.axisControls", 4),
     "msgBox.msg": ({"msgBox.msg": "go?"}, "state.messageBox.message", "go?"),
     "msgBox.title": ({"msgBox.title": "x"}, "state.messageBox.title", "x"),

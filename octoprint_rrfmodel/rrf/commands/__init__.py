@@ -4,8 +4,9 @@
 goes out in one module a topic.
 """
 
+from .box import identity_of_box
 from .outcome import Refusal, Situation
 from .system import root_of
 from .table import COMMANDS, Command, translate
 
-__all__ = ["COMMANDS", "Command", "Refusal", "Situation", "root_of", "translate"]
+__all__ = ["COMMANDS", "Command", "Refusal", "Situation", "identity_of_box", "root_of", "translate"]

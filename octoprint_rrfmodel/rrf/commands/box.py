@@ -76,12 +76,24 @@ def read_value(name: str, value: Any, machine: Machine) -> Any:
     return value
 
 
+def message_box_of(model: Mapping[str, Any]) -> Box:
+    """Return the box that the model shows, empty where it shows none."""
+    return mapping(mapping(model.get("state")).get("messageBox"))
+
+
+def identity_of_box(model: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Return what tells the box that the model shows from others; its time runs."""
+    return tuple(map(message_box_of(model).get, ("seq", "mode", "title", "message")))
+
+
 def message_box(request: Request) -> Sequence[str]:
     """M292; P1 cancels, S names the box that is meant, R is the value."""
     machine, values = request.machine, request.values
     if not request.situation.answers_boxes:
         raise forbidden("unanswerable")
-    box = mapping(mapping(machine.model.get("state")).get("messageBox"))
+    if request.situation.box_is_answered:
+        raise forbidden("box_answered")
+    box = message_box_of(machine.model)
     mode = box.get("mode")
     if not isinstance(mode, int) or mode < 0:
         raise forbidden("no_box")

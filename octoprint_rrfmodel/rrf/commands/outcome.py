@@ -20,6 +20,8 @@ class Situation(NamedTuple):
     """Whether that print is paused."""
     answers_boxes: bool
     """Whether the firmware takes an answer to the message box that waits on this line."""
+    box_is_answered: bool = False
+    """Whether the model may still show a box that was just answered."""
 
 
 class Refusal(NamedTuple):

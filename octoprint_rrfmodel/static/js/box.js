@@ -7,6 +7,10 @@ $(function () {
     const NUMBER = 6;
     const TEXT = 7;
     const JOG_STEPS = [-10, -1, -0.1, 0.1, 1, 10];
+    /** Keys and clicks that were meant for what was there before answer no box that just opened. */
+    const UNREAD_MS = 700;
+    /** How long an accepted answer keeps the buttons locked where the box stays as it is. */
+    const ANSWERED_MS = 5000;
 
     function RrfModelBoxViewModel(parameters) {
         const self = this;
@@ -16,6 +20,9 @@ $(function () {
         self.value = ko.observable("");
         self.error = ko.observable("");
         self.isSending = ko.observable(false);
+        self.isUnread = ko.observable(false);
+        /** Somebody wants to see the page behind the dialog; nothing is answered by that. */
+        self.isAside = ko.observable(false);
         self.secondsLeft = ko.observable(0);
 
         /** The box as the model has it, `null` where none is open. */
@@ -41,17 +48,27 @@ $(function () {
             (core.status().warnings || []).some((w) => w.code === "message_box_unanswerable")
         );
         self.mayAnswer = ko.pureComputed(
-            () => core.mayControl() && !self.isUnanswerable() && !self.isSending()
+            () =>
+                core.mayControl() &&
+                !self.isUnanswerable() &&
+                !self.isSending() &&
+                !self.isUnread()
         );
 
-        self.choices = ko.pureComputed(() =>
-            self.mode() === CHOICES
-                ? (member("choices", [])() || []).map((text, index) => ({
-                      text: text,
-                      isDefault: index === member("default", -1)(),
-                      pick: () => answer("ok", index)
-                  }))
-                : []
+        const choices = member("choices", []);
+        const defaultChoice = member("default", -1);
+        self.choices = RRFModel.rows(
+            () =>
+                self.mode() === CHOICES && Array.isArray(choices())
+                    ? choices().map((text, index) => ({
+                          key: index,
+                          text: text,
+                          isDefault: index === defaultChoice()
+                      }))
+                    : [],
+            function (row) {
+                row.pick = () => answer("ok", row.key);
+            }
         );
         self.wantsValue = ko.pureComputed(() => self.mode() >= INTEGER);
         self.inputType = ko.pureComputed(() => (self.mode() === TEXT ? "text" : "number"));
@@ -65,25 +82,29 @@ $(function () {
         );
 
         /** Axes that the box offers to move: bits in the order of the machine's axes. */
-        self.axes = ko.pureComputed(function () {
-            const controls = member("axisControls", 0)();
-            return ((core.model("move") || {}).axes || [])
-                .filter((axis, index) => axis && controls & (1 << index))
-                .map((axis) => ({
-                    letter: axis.letter,
-                    steps: JOG_STEPS.map((step) => ({
-                        text: (step > 0 ? "+" : "") + step,
-                        label: _.sprintf(gettext("Move %(axis)s by %(step)s mm"), {
-                            axis: axis.letter,
-                            step: step
-                        }),
-                        jog: () => core.command("jog", {axes: {[axis.letter]: step}})
-                    }))
+        const controls = member("axisControls", 0);
+        self.axes = RRFModel.rows(
+            () =>
+                controls()
+                    ? ((core.model("move") || {}).axes || [])
+                          .filter((axis, index) => axis && controls() & (1 << index))
+                          .map((axis) => ({key: axis.letter}))
+                    : [],
+            function (row) {
+                row.letter = row.key;
+                row.steps = JOG_STEPS.map((step) => ({
+                    text: (step > 0 ? "+" : "") + step,
+                    label: _.sprintf(gettext("Move %(axis)s by %(step)s mm"), {
+                        axis: row.key,
+                        step: step
+                    }),
+                    jog: () => core.command("jog", {axes: {[row.key]: step}})
                 }));
-        });
+            }
+        );
         self.positions = ko.pureComputed(() =>
-            ((core.model("move") || {}).axes || [])
-                .filter((axis) => axis && member("axisControls", 0)() && axis.letter)
+            (controls() ? (core.model("move") || {}).axes || [] : [])
+                .filter((axis) => axis && axis.letter)
                 .map((axis) => axis.letter + " " + RRFModel.show.fixed(axis.userPosition, 2))
                 .join("  ")
         );
@@ -137,8 +158,12 @@ $(function () {
             if (value !== undefined) values.value = value;
             // older firmware doesn't count its boxes
             if (seq() !== null) values.seq = seq();
+            // the box stays in the model until the next poll, and so do its buttons; who presses
+            // again may answer the next box
             self.isSending(true);
-            core.command("message_box", values).always(() => self.isSending(false));
+            core.command("message_box", values)
+                .done(() => (unlocking = window.setTimeout(unlock, ANSWERED_MS)))
+                .fail(unlock);
         };
 
         self.ok = function () {
@@ -169,24 +194,46 @@ $(function () {
         let dialog;
         let shown = null;
         let closesAt = 0;
+        let unlocking;
+        let reading;
+
+        const unlock = function () {
+            window.clearTimeout(unlocking);
+            self.isSending(false);
+        };
 
         const keyOf = (box) => (box ? [box.seq, box.mode, box.title, box.message].join("|") : null);
 
         const update = function (box) {
             const key = keyOf(box);
             if (key === shown) return;
-            const wasOpen = shown !== null;
+            const wasOpen = shown !== null && !self.isAside();
             shown = key;
             self.error("");
-            self.isSending(false);
+            unlock();
+            self.isAside(false);
+            window.clearTimeout(reading);
+            self.isUnread(!!box);
+            reading = window.setTimeout(() => self.isUnread(false), UNREAD_MS);
             if (!box) {
                 if (wasOpen) dialog.modal("hide");
                 return;
             }
             self.value(box.default !== undefined && box.default !== null ? String(box.default) : "");
-            closesAt = box.timeout > 0 ? Date.now() + box.timeout * 1000 : 0;
+            closesAt = box.timeout > 0 ? Date.now() + box.timeout : 0;
             tick();
-            if (!wasOpen) dialog.modal({backdrop: "static", keyboard: false});
+            open();
+        };
+
+        const open = () => dialog.modal({backdrop: "static", keyboard: false});
+
+        self.putAside = function () {
+            self.isAside(true);
+            dialog.modal("hide");
+        };
+        self.showAgain = function () {
+            self.isAside(false);
+            open();
         };
 
         const tick = () =>
@@ -200,7 +247,8 @@ $(function () {
         self.onAllBound = function () {
             dialog = $("#rrfmodel_box_dialog");
             dialog.on("shown", function () {
-                dialog.find("input:visible, .modal-footer button:visible").first().focus();
+                // no button: a key that was meant for something else would answer
+                dialog.find("input:visible, h3").last().trigger("focus");
             });
             self.box.subscribe(update);
             update(self.box());
