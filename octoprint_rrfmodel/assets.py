@@ -8,6 +8,7 @@ SCRIPTS = (
     "history",
     "tree",
     "chart_parts",
+    "machine_heat",
     # regions of the page, each on its own
     "notifications",
     "sidebar",

@@ -53,9 +53,17 @@ class LiveQuestions:
                     raise
             await asyncio.sleep(PAUSE_SECONDS)
 
+    def connections(self):
+        """Return a number for the connection that is there now."""
+        return self._poller.connections
+
     def changes_of_the_card(self):
-        """Return what is another after each change of the card, as far as the board counts them."""
-        return str(self._follower.store.model.get("seqs", {}).get("volChanges"))
+        """Return what is another after each change of the card, as far as the board counts them.
+
+        And for another board, or the same one after a reset, which begin to count anew.
+        """
+        counted = self._follower.store.model.get("seqs", {}).get("volChanges")
+        return str((self._poller.connections, self._follower.resets, counted))
 
     def refusal_of_the_card(self):
         """Return why nothing can be asked about the card now, ``None`` where it can."""

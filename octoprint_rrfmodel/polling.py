@@ -60,11 +60,14 @@ class Poller:
         self._live_asked_at = {}
         self.asked_at = 0.0
         """When the live values of the model were asked for, the oldest of them; for any thread."""
+        self.connections = 0
+        """How many there were since OctoPrint's start."""
         self.polls = 0
         self.bytes = 0
 
     def start(self):
         """Begin to poll: the printer has just told that it runs RepRapFirmware."""
+        self.connections += 1
         self._pace.connected(self._bridge.baudrate())
         self._running = True
         self._queries.open()

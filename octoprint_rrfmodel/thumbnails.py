@@ -52,7 +52,7 @@ class Thumbnails:
         Who asks at the same time for the same shares the answer.
         """
         file = self._known(path)
-        key = (path.lower(), *file[:2]) if file else None
+        key = self._key(path, file) if file else None
         if key in self._pictures:
             self._pictures.move_to_end(key)
             return self._shown(self._pictures[key])
@@ -64,6 +64,10 @@ class Thumbnails:
             self._fetching[path] = task
             task.add_done_callback(lambda _: self._fetching.pop(path))
         return self._shown(await asyncio.shield(self._fetching[path]))
+
+    def _key(self, path, file):
+        """Return what tells a picture from others, those of other machines too."""
+        return (self._questions.connections(), path.lower(), *file[:2])
 
     @staticmethod
     def _shown(found):
@@ -86,7 +90,7 @@ class Thumbnails:
     async def _fetch(self, path, file):
         async with self._turn:
             file = file or await self._file(path)
-            key = (path.lower(), *file[:2])
+            key = self._key(path, file)
             if key not in self._pictures:
                 thumbnail = best(file.thumbnails)
                 found = await self._picture(path, thumbnail) if thumbnail else None

@@ -28,6 +28,9 @@ class Card:
     def refusal_of_the_card(self):
         return None
 
+    def connections(self):
+        return 1
+
     def changes_of_the_card(self):
         return 1
 

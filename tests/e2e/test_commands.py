@@ -212,6 +212,7 @@ CASES = [
         None,
         lambda model: model["move"]["compensation"]["type"] == "mesh",
     ),
+    ("mesh", {"action": "calibrate"}, ["G32"], None, None),
     ("macro", {"path": "0:/macros/Say hello"}, ['M98 P"0:/macros/Say hello"'], None, None),
     ("power", {"on": True}, ["M80"], None, lambda model: model["state"]["atxPower"] is True),
 ]

@@ -145,6 +145,20 @@ def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, view, server, board):
+    part(view, "cancel").click()
+    page.locator(".modal.in").wait_for()
+    end_job(server, board)
+    begin(server, board, "0:/gcodes/short.gcode")
+    wait_text(part(view, "file"), "short.gcode")
+    before = len(board.board.received())
+    confirm(page)
+    expect(page.locator(".ui-pnotify-text").last).to_contain_text("another print")
+    helpers.wait_polls(server, 2)
+    sent = helpers.commands(board)[before:]
+    assert not [line for line in sent if line.startswith(("M25", "M0"))]
+
+
 def test_objects(page, view, server, board):
     objects = part(view, "object")
     expect(objects).to_have_count(2, timeout=20_000)
@@ -207,7 +221,7 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
     view = open_view(page, server, ADMIN, "job")
-    assert part(view, "file").inner_text() == "odd <b>&amp.gcode"
+    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=15_000)
     wait_text(part(view, "object").nth(0), MARKUP)
     assert view.locator("img:not([data-test=picture]), b").count() == 0
     part(view.locator("[data-test=object]").nth(0), "object-cancel").click()

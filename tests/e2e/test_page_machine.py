@@ -50,6 +50,33 @@ def test_tool_temperatures_and_state(view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_offsets_of_a_tool(view, server, board, page_errors):
+    tool = part(view, "tool").first
+    expect(part(tool, "offset")).to_have_count(0)
+    part(tool, "show-offsets").click()
+    fields = part(tool, "offset")
+    before = board_value(board, "tools[1].offsets")
+    assert fields.count() == len(before) > 2
+    type_number(fields.nth(1), -0.75)
+    wait_board(server, board, "tools[1].offsets", [before[0], -0.75, *before[2:]])
+    wait_text(part(tool, "offsets"), "Y -0.75")
+    assert own_errors(page_errors) == []
+
+
+def test_a_move_has_the_speed_that_is_shown(view, server, board):
+    board.board.execute("G28", channel="http")
+    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    sent = len(helpers.commands(board))
+    part(view, "jog-speed").fill("1200")
+    part(view, "step").filter(has_text="10").first.click()
+    part(axis(view, "X"), "plus").click()
+    server.wait_for(
+        lambda: [line for line in helpers.commands(board)[sent:] if "F1200" in line],
+        15,
+        "the move at that speed",
+    )
+
+
 def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
     field = part(part(view, "tool").first, "standby")
     before = field.input_value()
@@ -174,3 +201,22 @@ def test_refusals_are_told(page, view, server, board):
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
         "Home these axes first: X", timeout=15_000
     )
+
+
+def test_each_heater_of_a_tool_has_its_own_temperature(page, module_server_factory, board_factory):
+    board = board_factory(machine="idex", speed=10)
+    server = module_server_factory()
+    helpers.connect(server, board)
+    board.board.execute("M568 P2 S210:190 R150:140", channel="http")
+    view = open_view(page, server, ADMIN, "machine")
+    tool = part(view, "tool").nth(2)
+    expect(part(tool, "active")).to_have_count(2)
+    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=15_000)
+    type_number(part(tool, "active").nth(0), 215)
+    wait_board(server, board, "tools[2].active", [215, 190])
+    type_number(part(tool, "standby").nth(1), 130)
+    wait_board(server, board, "tools[2].standby", [150, 130])
+    # a fault of any of them is the tool's
+    heaters = board_value(board, "tools[2].heaters")
+    board.board.inject(f"heater_fault:{heaters[1]}")
+    wait_text(part(tool, "state"), "fault")

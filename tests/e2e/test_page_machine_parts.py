@@ -7,7 +7,7 @@ from tests.support.basedir import ADMIN, READER
 
 from . import helpers
 from .page import open_view as open_machine
-from .page import own_errors, part, type_number, wait_board, wait_text
+from .page import board_value, own_errors, part, type_number, wait_board, wait_text
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -52,6 +52,11 @@ def test_mesh(view, server, board, page_errors):
     wait_text(part(view, "mesh-type"), "mesh")
     part(view, "mesh-clear").click()
     wait_board(server, board, "move.compensation.type", "none", 20)
+    sent_before = len(helpers.commands(board))
+    part(view, "calibrate").click()
+    server.wait_for(
+        lambda: "G32" in helpers.commands(board)[sent_before:], 20, "the bed to be levelled"
+    )
     part(view, "mesh-load").click()
     wait_board(server, board, "move.compensation.type", "mesh", 20)
     assert own_errors(page_errors) == []
@@ -182,6 +187,15 @@ def test_spindle(page, module_server_factory, module_board_factory):
     assert spindle.count() == 1
     type_number(part(spindle, "rpm"), 8000)
     wait_board(server, board, "spindles[0].active", 8000)
+    wait_board(server, board, "spindles[0].state", "forward")
+    # one that somebody else has turned round goes on as it turns
+    board.board.execute("M4 P0 S500", channel="http")
+    expect(part(spindle, "reverse")).to_be_checked(timeout=15_000)
+    type_number(part(spindle, "rpm"), 700)
+    wait_board(server, board, "spindles[0].active", 700)
+    assert board_value(board, "spindles[0].state") == "reverse"
+    part(spindle, "reverse").uncheck()
+    type_number(part(spindle, "rpm"), 900)
     wait_board(server, board, "spindles[0].state", "forward")
     part(spindle, "reverse").check()
     type_number(part(spindle, "rpm"), 6000)

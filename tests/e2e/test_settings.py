@@ -176,6 +176,25 @@ def test_profile(server, board_factory, profile):
     assert extruder(server) == profile
 
 
+def test_nothing_is_set_back_while_something_is_printed(server, board_factory, profile):
+    board = board_factory(machine="toolchanger")
+    helpers.connect(server, board)
+    assert command(server, "fix_profile").status_code == 204
+    raised = extruder(server)
+    server.upload("streamed.gcode", "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 500)
+    server.select_and_print("streamed.gcode")
+    server.wait_state("Printing")
+    # OctoPrint 1.11 would drop the tool commands of the print
+    response = command(server, "restore_settings")
+    assert response.status_code == 409
+    assert response.json()["error"].endswith(".")
+    assert extruder(server) == raised
+    server.post("/api/job", json={"command": "cancel"})
+    server.wait_state("Operational", 60)
+    assert command(server, "restore_settings").status_code == 204
+    assert extruder(server) == profile
+
+
 def test_no_more_extruders_than_octoprint_takes(server, board_factory, profile):
     board = board_factory(machine="toolchanger")
     with board.board.lock:

@@ -306,6 +306,7 @@ TABLE = [
     ("mesh", {"action": "load"}, "cartesian", VERSIONS, {}, ["G29 S1"]),
     ("mesh", {"action": "clear"}, "cartesian", VERSIONS, {}, ["G29 S2"]),
     ("mesh", {"action": "probe"}, "cartesian", VERSIONS, {}, ["G29"]),
+    ("mesh", {"action": "calibrate"}, "cartesian", VERSIONS, {}, ["G32"]),
     ("power", {"on": True}, "cartesian", VERSIONS, {}, ["M80"]),
     ("power", {"on": False}, "cartesian", VERSIONS, {}, ["M81"]),
 ]

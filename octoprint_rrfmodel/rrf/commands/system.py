@@ -13,8 +13,9 @@ from .states import PRINTING_OR_PAUSED, forbid
 POWER_IS_CONFIGURED = (3, 4)
 """From here on M80 is an error unless a port was given to it (3.4 GCodes2.cpp, M80)."""
 
-MESH = {"load": "G29 S1", "clear": "G29 S2", "probe": "G29"}
-"""Action to line; without S the machine's own mesh.g runs (3.5 GCodes2.cpp:385)."""
+MESH = {"load": "G29 S1", "clear": "G29 S2", "probe": "G29", "calibrate": "G32"}
+"""Action to line; without S the machine's own mesh.g runs (3.5 GCodes2.cpp:385). G32 runs bed.g,
+which levels the bed or calibrates a delta."""
 
 _ROOT = re.compile(r"[^.\[]*")
 """The top-level key that a key begins with."""

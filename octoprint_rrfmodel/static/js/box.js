@@ -7,6 +7,8 @@ $(function () {
     const NUMBER = 6;
     const TEXT = 7;
     const JOG_STEPS = [-10, -1, -0.1, 0.1, 1, 10];
+    /** In mm/min. */
+    const JOG_SPEED = 600;
     /** Keys and clicks that were meant for what was there before answer no box that just opened. */
     const UNREAD_MS = 700;
     /** How long an accepted answer keeps the buttons locked where the box stays as it is. */
@@ -98,7 +100,8 @@ $(function () {
                         axis: row.key,
                         step: step
                     }),
-                    jog: () => core.command("jog", {axes: {[row.key]: step}})
+                    // slow enough to stop in time
+                    jog: () => core.command("jog", {axes: {[row.key]: step}, speed: JOG_SPEED})
                 }));
             }
         );

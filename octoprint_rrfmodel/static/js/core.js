@@ -60,6 +60,10 @@ $(function () {
         };
         self.mayRead = ko.pureComputed(() => self.may("PLUGIN_RRFMODEL_READ"));
         self.mayControl = ko.pureComputed(() => self.may("PLUGIN_RRFMODEL_CONTROL"));
+        /** Another number after each reset and with each machine. */
+        self.resets = ko.pureComputed(() =>
+            [self.status().resets, (self.status().firmware || {}).electronics].join()
+        );
         self.maySet = ko.pureComputed(() => self.may("SETTINGS"));
 
         self.isRrf = ko.pureComputed(
@@ -142,13 +146,25 @@ $(function () {
             feeds.forEach((feed) => feed.changed(keys));
         };
 
+        /** Keys that were pushed since the whole model was asked for, null where it isn't. */
+        let asked = null;
+
         self.requestData = function () {
             if (!self.mayRead()) return;
             OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
                 self.fromStatus(status);
-                if (!status.is_rrf || !status.revision) return;
+                if (!status.is_rrf || !status.revision) {
+                    replace({});
+                    return;
+                }
+                const pushed = (asked = new Set());
                 OctoPrint.plugins.rrfmodel.getModel("", "d99vno").done(function (answer) {
-                    replace(answer.result || {});
+                    // it is of no use any more behind a reset or a later question
+                    if (asked !== pushed) return;
+                    asked = null;
+                    const model = Object.assign({}, answer.result);
+                    pushed.forEach((key) => (model[key] = latest[key]));
+                    replace(model);
                 });
             });
         };
@@ -171,13 +187,18 @@ $(function () {
         self.onDataUpdaterPluginMessage = function (plugin, message) {
             if (plugin !== "rrfmodel" || !self.mayRead()) return;
             if (message.type === "notice") {
-                self.notify(RRFModel.words.notice[message.code] || message.text);
+                // a print that is paused is a warning for as long as it is
+                if (message.code !== "print_paused") self.notify(RRFModel.noticeText(message));
                 return;
             }
-            if (message.type === "reset") replace({});
+            if (message.type === "reset") {
+                asked = null;
+                replace({});
+            }
             if (message.type === "model") {
                 Object.assign(latest, message.changed);
                 const keys = Object.keys(message.changed);
+                if (asked) keys.forEach((key) => asked.add(key));
                 feeds.forEach((feed) => feed.changed(keys));
             }
             self.fromStatus(message.status);
@@ -194,14 +215,18 @@ $(function () {
             self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));
         };
 
-        self.notify = function (text, type) {
-            return new PNotify({
+        self.notify = function (text, type, more) {
+            const options = {
                 title: gettext("RepRapFirmware"),
                 text: text,
                 title_escape: true,
                 text_escape: true,
                 type: type || "notice"
-            });
+            };
+            const notice = new PNotify(Object.assign(options, more));
+            // its history would keep each one for as long as the page is open
+            notice.options.destroy = true;
+            return notice;
         };
     }
 

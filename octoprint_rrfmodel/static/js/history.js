@@ -10,6 +10,7 @@ $(function () {
         let since;
         let timer;
         let isAsking = false;
+        let generation = 0;
 
         /** Grows with each answer that brought something. */
         self.revision = ko.observable(0);
@@ -18,6 +19,7 @@ $(function () {
 
         self.forget = function () {
             since = undefined;
+            generation += 1;
             self.times = [];
             /** By id, each with as many values as there are times. */
             self.series = new Map();
@@ -62,9 +64,11 @@ $(function () {
         const ask = function () {
             if (!isWanted() || isAsking) return;
             isAsking = true;
+            const asked = generation;
             OctoPrint.plugins.rrfmodel
                 .getHistory(since)
-                .done(take)
+                // an answer for what was forgotten meanwhile lacks what came before it
+                .done((answer) => asked === generation && take(answer))
                 .always(function () {
                     isAsking = false;
                     if (isWanted()) timer = window.setTimeout(ask, INTERVAL_MS);

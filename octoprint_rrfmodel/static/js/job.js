@@ -5,6 +5,8 @@ $(function () {
     const WITH_JOB = ["processing", "simulating", "pausing", "paused", "resuming", "cancelling"];
     const GOING_ON = ["processing", "simulating", "resuming"];
     const LATEST_LAYERS = 30;
+    const RETRY_MS = 30000;
+    const MOST_ATTEMPTS = 5;
 
     const list = (value) => (Array.isArray(value) ? value : []);
     const isNumber = (value) => typeof value === "number";
@@ -63,16 +65,28 @@ $(function () {
 
         //~~ its picture
 
+        const attempt = ko.observable(0);
+        let retrying;
+
         self.hasPicture = ko.observable(false);
         self.picture = ko.pureComputed(function () {
             const has = list(file().thumbnails).length > 0;
             if (!has || !self.path()) return null;
-            const query = $.param({path: self.path()});
+            // a file that was sliced anew has another picture under its old name
+            const version = [file().size, file().lastModified, attempt()].join("-");
+            const query = $.param({path: self.path(), v: version});
             return OctoPrint.getBlueprintUrl("rrfmodel") + "thumbnail?" + query;
         });
         self.pictureCame = () => self.hasPicture(true);
-        self.pictureFailed = () => self.hasPicture(false);
-        self.picture.subscribe(self.pictureFailed);
+        // the machine may have been busy
+        self.pictureFailed = function () {
+            self.hasPicture(false);
+            window.clearTimeout(retrying);
+            if (attempt() < MOST_ATTEMPTS)
+                retrying = window.setTimeout(() => attempt(attempt() + 1), RETRY_MS);
+        };
+        self.picture.subscribe(() => self.hasPicture(false));
+        self.path.subscribe(() => attempt(0));
 
         //~~ how far it is
 
@@ -114,14 +128,22 @@ $(function () {
         //~~ what can be done with it
 
         const act = (action) => () => core.command("job", {action: action});
-        const asked = (title, message, proceed, onproceed) =>
+        /** Asks first, and does it only if it is still the same file by then. */
+        const asked = function (title, message, proceed, onproceed) {
+            const path = self.path();
             showConfirmationDialog({
                 title: title,
                 message: message,
                 proceed: proceed,
                 cancel: gettext("Back"),
-                onproceed: onproceed
+                onproceed: function () {
+                    if (path === nowPrinted()) onproceed();
+                    else core.notify(gettext("Nothing was done: it is another print by now."));
+                }
             });
+        };
+        // the page's own view stands still while it is hidden
+        const nowPrinted = () => ((core.latest.job || {}).file || {}).fileName || "";
 
         self.mayPause = ko.pureComputed(() => GOING_ON.includes(status()));
         self.mayResume = ko.pureComputed(() => status() === "paused");

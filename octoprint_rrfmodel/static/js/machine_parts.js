@@ -2,14 +2,9 @@
 $(function () {
     const MACROS = "0:/macros";
     const FILAMENTS = "0:/filaments";
-    const FIRST_NUMBER = /^\d+(\.\d+)*/;
 
-    const list = (value) => (Array.isArray(value) ? value : []);
+    const {list, numbered} = RRFModel;
     const object = (value) => (value && typeof value === "object" ? value : {});
-    const numbered = (value) =>
-        list(value)
-            .map((item, index) => ({item: item, index: index}))
-            .filter((found) => !!found.item);
 
     /** A folder of the card that is listed when it is asked for, and opens into those below. */
     function Folder(core, root) {
@@ -19,12 +14,15 @@ $(function () {
         self.isOpen = ko.observable(false);
         self.isReading = ko.observable(false);
         self.isRoot = ko.pureComputed(() => self.path() === root);
+        let generation = 0;
 
         const read = function (path) {
+            const asked = generation;
             self.isReading(true);
             OctoPrint.plugins.rrfmodel
                 .getFiles(path)
                 .done(function (found) {
+                    if (asked !== generation) return;
                     self.path(path);
                     self.entries(
                         found.entries.sort(
@@ -43,7 +41,12 @@ $(function () {
         self.pathOf = (entry) => self.path() + "/" + entry.name;
 
         // the next machine has a card of its own
-        core.isRrf.subscribe(() => self.isOpen(false));
+        const close = function () {
+            generation += 1;
+            self.isOpen(false);
+        };
+        core.isRrf.subscribe(close);
+        core.resets.subscribe(close);
     }
 
     function RrfModelMachinePartsViewModel(parameters) {
@@ -118,22 +121,28 @@ $(function () {
                         current: show.fixed(found.item.current, 0),
                         active: found.item.active,
                         state: SPINDLES[found.item.state] || found.item.state || "",
+                        turnsBack: found.item.state === "reverse",
+                        // told from 3.5 on
+                        canReverse: found.item.canReverse !== false,
                         max: found.item.max
                     })),
             function (row) {
                 row.label = _.sprintf(gettext("Speed of %(name)s in rpm"), {name: row.name()});
-                row.direction = ko.observable("forward");
-                row.set = (rpm) =>
-                    core.command("spindle", {
-                        spindle: row.key,
-                        rpm: rpm,
-                        direction: row.direction()
-                    });
-                row.stop = () => core.command("spindle", {spindle: row.key, rpm: 0});
+                /** What somebody wants; until then it turns as it does. */
+                const wanted = ko.observable(null);
                 row.isReverse = ko.pureComputed({
-                    read: () => row.direction() === "reverse",
-                    write: (value) => row.direction(value ? "reverse" : "forward")
+                    read: () => (wanted() === null ? row.turnsBack() : wanted()),
+                    write: wanted
                 });
+                row.set = (rpm) =>
+                    core
+                        .command("spindle", {
+                            spindle: row.key,
+                            rpm: rpm,
+                            direction: row.isReverse() ? "reverse" : "forward"
+                        })
+                        .done(() => wanted(null));
+                row.stop = () => core.command("spindle", {spindle: row.key, rpm: 0});
             }
         );
         self.laser = ko.pureComputed(() =>
@@ -191,7 +200,6 @@ $(function () {
         //~~ boards, network, volumes
 
         const volts = (value) => (typeof value === "number" ? value.toFixed(1) + " V" : "");
-        const versionOf = (text) => (FIRST_NUMBER.exec(text || "") || [""])[0];
         self.boards = RRFModel.rows(() =>
             numbered(model("boards")).map(function (found) {
                 const board = found.item;
@@ -203,7 +211,7 @@ $(function () {
                     version: board.firmwareVersion || "",
                     differs:
                         !!board.firmwareVersion &&
-                        versionOf(board.firmwareVersion) !== versionOf(main.firmwareVersion),
+                        board.firmwareVersion !== main.firmwareVersion,
                     supply: volts(object(board.vIn).current),
                     twelve: volts(object(board.v12).current),
                     temperature:

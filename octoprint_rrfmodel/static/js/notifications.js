@@ -7,6 +7,9 @@ $(function () {
         fix_profile: "SETTINGS"
     };
 
+    /** The key of what the machine's display shows: one notification, whatever it says. */
+    const MESSAGE = "message";
+
     const TYPES = {fault: "error", warning: "notice"};
 
     function RrfModelNotificationsViewModel(parameters) {
@@ -24,17 +27,22 @@ $(function () {
         /** What is to be told now: key, text, kind. Advice can wait and stands in the sidebar. */
         const due = ko.pureComputed(function () {
             if (!core.mayRead()) return [];
-            const found = (core.status().warnings || [])
-                .filter((warning) => warning.level !== "advice")
+            const warnings = core.status().warnings || [];
+            // what has paused a print is told with that
+            const told = new Set(
+                warnings.flatMap((warning) => (warning.causes || []).map((cause) => cause.code))
+            );
+            const found = warnings
+                .filter((warning) => warning.level !== "advice" && !told.has(warning.code))
                 .map((warning) => ({
                     // why a print is paused may change while it is
-                    key: warning.code + JSON.stringify(warning.values || ""),
+                    key: JSON.stringify([warning.code, warning.values, warning.causes]),
                     text: RRFModel.warningText(warning),
                     type: TYPES[warning.level] || "error",
                     warning: warning
                 }));
             const message = core.isRrf() ? (core.model("state") || {}).displayMessage : "";
-            if (message) found.push({key: "message " + message, text: message, type: "info"});
+            if (message) found.push({key: MESSAGE, text: message, type: "info"});
             return found;
         });
 
@@ -58,19 +66,20 @@ $(function () {
         };
 
         const tell = (item) =>
-            new PNotify({
-                title: gettext("RepRapFirmware"),
-                text: item.text,
-                title_escape: true,
-                text_escape: true,
-                type: item.type,
-                hide: false,
-                confirm: confirmation(item.warning)
-            });
+            core.notify(item.text, item.type, {hide: false, confirm: confirmation(item.warning)});
+
+        const again = function (notice, item) {
+            // one that was closed is not opened by every layer's message
+            if (notice.options.text !== item.text) notice.update({text: item.text});
+            return notice;
+        };
 
         const update = function (items) {
             const next = new Map();
-            items.forEach((item) => next.set(item.key, told.get(item.key) || tell(item)));
+            items.forEach(function (item) {
+                const notice = told.get(item.key);
+                next.set(item.key, notice ? again(notice, item) : tell(item));
+            });
             told.forEach((notice, key) => next.has(key) || notice.remove());
             told = next;
         };

@@ -1,5 +1,16 @@
 /* Lists that stay in place while their values change, and fields that show a value and set it. */
 $(function () {
+    RRFModel.list = (value) => (Array.isArray(value) ? value : []);
+
+    /** Elements of an array of the model with their indices, gaps left out. */
+    RRFModel.numbered = (value) =>
+        RRFModel.list(value)
+            .map((item, index) => ({item: item, index: index}))
+            .filter((found) => !!found.item);
+
+    /** A text with the row's name in it, which another machine may change. */
+    RRFModel.named = (row, text) => ko.pureComputed(() => _.sprintf(text, {name: row.name()}));
+
     /**
      * Returns an observable array of rows. `describe()` returns plain objects with a `key` each;
      * every other member becomes an observable of the row with that key, so that the page keeps
@@ -60,7 +71,9 @@ $(function () {
             self.test = params.test;
             self.limits = {min: params.min, max: params.max, step: params.step || "any"};
             self.isDirty = ko.pureComputed(() => typed() !== undefined);
-            self.setText = _.sprintf(gettext("Set: %(label)s"), {label: ko.unwrap(self.label)});
+            self.setText = ko.pureComputed(() =>
+                _.sprintf(gettext("Set: %(label)s"), {label: ko.unwrap(self.label)})
+            );
 
             self.text = ko.pureComputed({
                 read: function () {

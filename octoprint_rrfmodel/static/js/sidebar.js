@@ -92,6 +92,7 @@ $(function () {
         }));
 
         self.isShown = core.isRrf;
+        self.mayRead = core.mayRead;
 
         /** Whether a row is wanted; every one can be folded away in the settings. */
         self.wants = function (row) {

@@ -121,7 +121,22 @@ $(function () {
         ),
         /** Notices in the page's words; others have the server's text. */
         notice: {
-            board_reset: gettext("The board was reset and has begun anew. Home it before it moves.")
+            board_reset: gettext("The board was reset and has begun anew. Home it before it moves."),
+            not_homed: gettext("Nothing was moved: home %(detail)s first."),
+            no_tool_selected: gettext("Nothing was done: select a tool first."),
+            too_cold: gettext("Nothing was extruded: tool %(detail)s is too cold. Heat it first."),
+            no_such_tool: gettext("Nothing was done: the machine has no tool %(detail)s."),
+            no_bed: gettext("Nothing was heated: the machine has no heated bed."),
+            no_chamber: gettext("Nothing was heated: the machine has no heated chamber."),
+            message_box: gettext(
+                "Not sent, nobody could answer it on this firmware: %(detail)s. Update the firmware to 3.6.1 or newer."
+            ),
+            debug_table: gettext(
+                "Not sent, the printer would not acknowledge it: %(detail)s. Use the machine's own console."
+            ),
+            recover_failed: gettext(
+                "The machine did not come back after its restart. Check its power and cable, then connect."
+            )
         },
         /** What the button of a warning says, by the command that it sends. */
         fix: {
@@ -153,6 +168,12 @@ $(function () {
             const text = two(Math.floor(whole / 60) % 60) + ":" + two(whole % 60);
             return Math.floor(whole / 3600) + ":" + text;
         }
+    };
+
+    /** A notice in the page's words, the machine's own text in it as it came. */
+    RRFModel.noticeText = function (message) {
+        const text = RRFModel.words.notice[message.code];
+        return text ? _.sprintf(text, {detail: message.detail}) : message.text;
     };
 
     /** A warning of the server in the page's language. */
