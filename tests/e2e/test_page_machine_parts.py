@@ -6,8 +6,8 @@ from playwright.sync_api import expect
 from tests.support.basedir import ADMIN, READER
 
 from . import helpers
-from .page import open_view as open_machine
 from .page import board_value, own_errors, part, type_number, wait_board, wait_text
+from .page import open_view as open_machine
 
 pytestmark = pytest.mark.timeout(240)
 
