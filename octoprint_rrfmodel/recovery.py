@@ -96,7 +96,10 @@ class Recovery:
         deadline = time.monotonic() + RETURN_SECONDS
         if not self._printer().is_operational():
             self._connect(last, deadline)
-        self._send_restart()
+        restarted = self._send_restart()
+        if self._comm() not in (restarted, None):
+            self._logger.info("Somebody has connected to another printer meanwhile")
+            return
         self._close()
         # a port of a board's own USB goes away, one of an adapter stays
         if _may_vanish(last.port):
@@ -107,14 +110,19 @@ class Recovery:
         self._logger.info("The board was restarted and is connected again")
 
     def _send_restart(self):
-        """Send M999 past OctoPrint's queues, which would wait for an ok that never comes."""
+        """Send M999 past OctoPrint's queues, which would wait for an ok that never comes.
+
+        Return the connection that it went out by.
+        """
         # without a connection to RepRapFirmware there is a printer that nobody asked about
         if not _wait_until(lambda: self._comm() is not None, CONNECT_SECONDS):
             raise TimeoutError("the printer did not say that it runs RepRapFirmware")
         self._logger.info("Restarting the board")
-        self._comm()._do_send_without_checksum(b"M999")
+        comm = self._comm()
+        comm._do_send_without_checksum(b"M999")
         # closing may throw away what has not left yet; the board takes a second to restart
         time.sleep(SENDING_SECONDS)
+        return comm
 
     def _connect(self, last, deadline):
         while True:

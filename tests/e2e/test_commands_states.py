@@ -266,7 +266,7 @@ def test_halted(ready, server):
     assert server.post(COMMAND, json={"command": "refresh"}).status_code == 204
     assert ask(server, "recover").status_code == 204
     server.wait_for(lambda: not machine.board.is_halted, 20, "the restart")
-    server.wait_state("Operational", 60)
+    server.wait_for(lambda: "is connected again" in server.log(), 60, "the end of the restart")
     helpers.wait_ready(server, 40)
 
 

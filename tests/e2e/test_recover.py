@@ -90,6 +90,21 @@ def test_connecting_to_a_halted_board(server, board_factory):
     assert warning["fix"] == "recover"
 
 
+def test_who_connects_to_another_board_meanwhile_stays_connected(server, board_factory):
+    board = board_factory()
+    helpers.connect(server, board)
+    board.board.inject("halted")
+    helpers.wait_value(server, "state.status", "halted", 10)
+    assert recover(server).status_code == 204
+    helpers.disconnect(server)
+    other = board_factory(machine="toolchanger")
+    helpers.connect(server, other)
+    # longer than the restart waits for its line to leave
+    helpers.wait_polls(server, 4)
+    assert server.state() == "Operational"
+    helpers.wait_equal(server, other)
+
+
 def test_a_port_that_stays(server, board_factory):
     """An adapter's port is there all the time, and so is the one that OctoPrint was told."""
     board = board_factory()
