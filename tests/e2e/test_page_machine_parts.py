@@ -31,10 +31,12 @@ def view(page, server):
 
 def test_what_there_is_to_see(view, board, page_errors):
     data = board.board.data
-    assert part(view, "endstop").count() == len([e for e in data["sensors"]["endstops"] if e])
-    assert part(view, "probe").count() == len([p for p in data["sensors"]["probes"] if p])
+    endstops = [found for found in data["sensors"]["endstops"] if found]
+    probes = [found for found in data["sensors"]["probes"] if found]
+    expect(part(view, "endstop")).to_have_count(len(endstops), timeout=15_000)
+    expect(part(view, "probe")).to_have_count(len(probes))
     boards = part(view, "board")
-    assert boards.count() == len(data["boards"])
+    expect(boards).to_have_count(len(data["boards"]))
     wait_text(boards.first, data["boards"][0]["firmwareVersion"])
     wait_text(boards.first, "V")
     wait_text(part(view, "kinematics"), data["move"]["kinematics"]["name"])
@@ -184,7 +186,7 @@ def test_spindle(page, module_server_factory, module_board_factory):
     helpers.connect(server, board)
     view = opened(page, server, ADMIN)
     spindle = part(view, "spindle")
-    assert spindle.count() == 1
+    expect(spindle).to_have_count(1, timeout=15_000)
     type_number(part(spindle, "rpm"), 8000)
     wait_board(server, board, "spindles[0].active", 8000)
     wait_board(server, board, "spindles[0].state", "forward")
@@ -202,3 +204,10 @@ def test_spindle(page, module_server_factory, module_board_factory):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
+    # and in the mode for it a laser is shown
+    expect(part(view, "laser")).to_be_hidden()
+    with board.board.lock:
+        board.board.data["state"]["machineMode"] = "Laser"
+        board.board.data["move"]["currentMove"]["laserPwm"] = 0.5
+        board.board.bump("state")
+    wait_text(part(view, "laser"), "50 %")

@@ -66,3 +66,14 @@ def test_a_refusal_comes_in_the_language_of_the_page(page, server, board):
     assert response.status_code == 204
     told = page.locator(".ui-pnotify:visible .ui-pnotify-text")
     expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1, timeout=15_000)
+
+
+def test_a_box_that_nobody_can_answer_is_told(page, told, server, board_factory):
+    board = board_factory(firmware="3.5.3")
+    board.board.card.write("0:/macros/ask.g", 'M291 P"Go on?" S2\n')
+    helpers.connect(server, board)
+    server.commands('M98 P"0:/macros/ask.g"')
+    about = told.filter(has_text="does not take over USB")
+    expect(about).to_have_count(1, timeout=20_000)
+    helpers.disconnect(server)
+    expect(about).to_have_count(0, timeout=20_000)

@@ -42,14 +42,14 @@ def test_wizard_sets_both_and_is_seen_once(page, server, page_errors):
     open_octoprint(page, server, ADMIN)
     wizard = page.locator("#rrfmodel_wizard_dialog")
     expect(wizard).to_be_visible(timeout=15_000)
-    assert part(wizard, "needed").count() == 4
+    expect(part(wizard, "needed")).to_have_count(4)
     part(wizard, "set-needed").click()
     wait_text(part(wizard, "needed-state").last, "as needed")
     assert {row["fulfilled"] for row in setup(server)["settings"]} == {True}
     part(wizard, "wizard-next").click()
     differences = {row["field"]: row["wanted"] for row in setup(server)["profile"]}
     assert differences != {}
-    assert part(wizard, "difference").count() == len(differences)
+    expect(part(wizard, "difference")).to_have_count(len(differences))
     part(wizard, "write-profile").click()
     expect(part(wizard, "profile-fits")).to_be_visible()
     after = server.get(PROFILE).json()
@@ -114,7 +114,7 @@ def test_settings_page(page, server, page_errors):
     part(pane, "needed").first.wait_for(timeout=15_000)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
-    assert part(pane, "difference").count() == len(setup(server)["profile"])
+    expect(part(pane, "difference")).to_have_count(len(setup(server)["profile"]))
     assert own_errors(page_errors) == []
 
 

@@ -91,6 +91,20 @@ def test_the_wizard_leads_through_by_keyboard(page, server, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_who_wants_it_later_is_asked_again(page, server, page_errors):
+    open_octoprint(page, server, ADMIN)
+    wizard = wizard_of(page)
+    expect(wizard).to_be_visible(timeout=15_000)
+    part(wizard, "wizard-later").click()
+    expect(wizard).to_be_hidden()
+    helpers.wait_polls(server, 2)
+    expect(wizard).to_be_hidden()
+    assert helpers.status(server)["first_run"] is True
+    open_octoprint(page, server, ADMIN)
+    expect(wizard_of(page)).to_be_visible(timeout=15_000)
+    assert own_errors(page_errors) == []
+
+
 def test_who_declines_is_not_asked_again(page, server, page_errors):
     open_octoprint(page, server, ADMIN)
     wizard = wizard_of(page)
