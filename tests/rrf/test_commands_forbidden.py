@@ -174,6 +174,13 @@ TABLE = [
         "unanswerable",
     ),
     ("message_box", {"action": "ok"}, {}, FREE._replace(answers_boxes=False), "unanswerable"),
+    (
+        "message_box",
+        {"action": "ok"},
+        box(2),
+        FREE._replace(box_is_answered=True),
+        "box_answered",
+    ),
     ("object", {"index": 0, "action": "cancel"}, {}, FREE, "no_objects"),
     ("job", {"action": "pause"}, {}, FREE, "no_job"),
     ("job", {"action": "pause"}, {"state.status": "paused"}, FREE, "no_job"),
