@@ -6,7 +6,7 @@ receiving thread, ``news`` on the worker.
 
 from octoprint.util.version import is_octoprint_compatible
 
-from .rrf.job import CardJob, card_job
+from .rrf.job import WITHOUT_JOB, CardJob, card_job
 from .rrf.operations import Lines
 from .rrf.wording import Situation
 
@@ -42,6 +42,7 @@ class SdJob:
         self._adopted = None
         self._cancelled_at = None
         self._asks_again = False
+        self._has_told_end = False
         self._settled = CardJob()
 
     def cancel(self, gcode):
@@ -50,8 +51,8 @@ class SdJob:
         On Marlin these stop reading the file. RepRapFirmware wants a job to be paused, then M0,
         which runs cancel.g.
         """
-        if gcode == "M26":
-            # it would set where the next print begins
+        if gcode == "M26" or (gcode == "M25" and self._has_told_end):
+            # M26 would set where the next print begins; and what has ended needs no end
             return Lines()
         if gcode != "M25":
             return None
@@ -109,7 +110,24 @@ class SdJob:
             return self._follow(comm, index, job)
         else:
             self._adopted = None
+            return self._tell_end(comm)
         return ()
+
+    def _tell_end(self, comm):
+        """Return what ends a paused print of OctoPrint's that was ended at the machine.
+
+        One that goes on OctoPrint ends by itself, when it hears often enough that nothing is
+        printed; while it is paused it doesn't count that.
+        """
+        if not comm.isBusy():
+            self._has_told_end = False
+        status = (self._model().get("state") or {}).get("status")
+        if not comm.isPaused() or not comm.isSdFileSelected() or status not in WITHOUT_JOB:
+            return ()
+        if self._has_told_end:
+            return ()
+        self._has_told_end = True
+        return ("// action:cancel",)
 
     def _finish_cancelling(self, job):
         if not job.is_active or self._clock() - self._cancelled_at > CANCEL_SECONDS:
@@ -119,6 +137,7 @@ class SdJob:
             self._send(END_JOB)
 
     def _follow(self, comm, index, job):
+        self._has_told_end = False
         if comm.isSdFileSelected() and comm.isPaused():
             return ("// action:resumed",) if job.status == "processing" else ()
         if comm.isSdPrinting():

@@ -261,6 +261,11 @@ def test_old_news_decide_nothing(bench):
         ("paused", "processing", ["// action:resumed"]),
         ("printing", "processing", []),
         ("paused", "paused", []),
+        ("paused", "idle", ["// action:cancel"]),
+        ("paused", "busy", ["// action:cancel"]),
+        # the supply may come back, and the job with it
+        ("paused", "off", []),
+        ("printing", "idle", []),
         ("operational", "idle", []),
     ],
 )
@@ -270,6 +275,21 @@ def test_octoprint_follows_the_machine(bench, shown, status, said):
     bench.status(status)
     heard = [bench.card.fill()]
     assert heard == (said or [SWALLOWED])
+
+
+def test_paused_print_that_was_ended_at_the_machine_is_ended_once_and_sends_nothing(bench):
+    bench.card.fill()
+    bench.comm.state = "paused"
+    bench.status("idle")
+    bench.status("idle")
+    assert [bench.card.fill(), bench.card.fill()] == ["// action:cancel", SWALLOWED]
+    # M0 without a job would run stop.g
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ()
+    assert bench.card.translate("M26 S0", "M26", CANCEL).lines == ()
+    # the next one is ended as ever
+    bench.comm.state = "operational"
+    bench.status("idle")
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ("M25", "M400 M0")
 
 
 def test_job_of_the_machine_is_selected_once(bench):

@@ -303,6 +303,24 @@ def test_job_that_begins_before_octoprint_has_the_list(server, board_factory, fi
     assert "Something crashed" not in server.log()
 
 
+def test_job_paused_and_cancelled_at_the_machine(server, connected, select):
+    board = connected()
+    select("square.gcode", start=True)
+    wait_printing(server)
+    board.board.execute("M25", channel="http")
+    server.wait_state("Paused", 30)
+    before = len(board.board.received())
+    board.board.execute("M0", channel="http")
+    wait_job_gone(server, board)
+    server.wait_state("Operational", 40)
+    sent = helpers.commands(board)[before:]
+    assert not [line for line in sent if line.startswith("M25") or "M0" in line.split()]
+    assert_no_harm(board)
+    # and the next print is one
+    select("square.gcode", start=True)
+    wait_printing(server)
+
+
 def test_job_cancelled_at_the_machine(server, connected, select):
     board = connected()
     select("square.gcode", start=True)
