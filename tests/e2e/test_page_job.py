@@ -66,7 +66,9 @@ def end_job(server, board):
     if board.board.job.is_printing:
         if board.board.job.state != "paused":
             board.board.execute("M25", channel="http")
-            server.wait_for(lambda: board.board.job.state == "paused", 20, "the pause")
+            # a short one may have ended meanwhile
+            job = board.board.job
+            server.wait_for(lambda: job.state == "paused" or not job.is_printing, 20, "the pause")
         board.board.execute("M0", channel="http")
         server.wait_for(lambda: not board.board.job.is_printing, 20, "the end of the job")
 
