@@ -125,6 +125,16 @@ def test_the_card_is_left_alone_while_octoprint_streams_a_print(server, board):
     assert server.get(FILES, params={"path": "0:/macros"}).status_code == 200
 
 
+def test_folders_of_one_machine_are_not_those_of_the_next(server_factory, board_factory):
+    server = server_factory()
+    for name in ("First", "Second"):
+        board = board_factory()
+        board.board.card.write(f"0:/macros/own/{name}", "M400\n")
+        helpers.connect(server, board)
+        # within the time that a folder is kept, and with the same count of changes
+        assert names(server, "0:/macros/own") == [name]
+
+
 def test_a_card_of_old_firmware_is_not_read(server_factory, board_factory):
     server = server_factory()
     helpers.connect(server, board_factory(firmware="2.05"), 30)
