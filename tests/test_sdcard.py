@@ -105,6 +105,15 @@ class Bench:
         }
         self.card.on_news()
 
+    def job_of_the_machine(self):
+        """Return the alias of a listed file that the board begins to print by itself."""
+        self.card.fill()
+        self.list("a b.gcode")
+        self.hear("Begin file list", "End file list")
+        (alias,) = self.plan.index.files
+        self.status("processing")
+        return alias
+
     def hear(self, *lines):
         return [self.card.reword(line + "\n") for line in lines]
 
@@ -293,11 +302,7 @@ def test_paused_print_that_was_ended_at_the_machine_is_ended_once_and_sends_noth
 
 
 def test_job_of_the_machine_is_selected_once(bench):
-    bench.card.fill()
-    bench.list("a b.gcode")
-    bench.hear("Begin file list", "End file list")
-    (alias,) = bench.plan.index.files
-    bench.status("processing")
+    alias = bench.job_of_the_machine()
     bench.status("processing")
     assert bench.card.fill() == f"File opened: {PREFIX}{alias} Size: 500"
     # the second one in place of the blank line behind the board's JSON
@@ -307,11 +312,7 @@ def test_job_of_the_machine_is_selected_once(bench):
 
 
 def test_job_of_the_machine_is_not_shown_before_octoprint_has_heard_its_name(bench):
-    bench.card.fill()
-    bench.list("a b.gcode")
-    bench.hear("Begin file list", "End file list")
-    (alias,) = bench.plan.index.files
-    bench.status("processing")
+    alias = bench.job_of_the_machine()
     assert bench.card.fill().startswith("File opened")
     # OctoPrint has the file but not yet told anybody so: a position that grows would begin a
     # print under the name of what was selected before

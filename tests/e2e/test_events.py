@@ -34,8 +34,8 @@ def told(push, name):
 
 
 def wait_told(server, push, name, payload, before=0):
-    """Return once an event with that payload came, after the first ``before`` ones."""
-    server.wait_for(
+    """Return whether an event with that payload came, after the first ``before`` ones."""
+    return server.wait_for(
         lambda: payload in told(push, name)[before:],
         20,
         f"{name} {payload}",
@@ -50,15 +50,15 @@ def test_complete_model_is_told_once(push):
 def test_tool(server, push, board):
     board.board.execute("G28")
     board.board.execute("T3")
-    wait_told(server, push, "tool_changed", {"old": -1, "new": 3})
+    assert wait_told(server, push, "tool_changed", {"old": -1, "new": 3})
 
 
 def test_status(server, push, board):
     helpers.wait_value(server, "state.status", "idle", 20)
     before = len(told(push, "status_changed"))
     board.board.execute("G28")
-    wait_told(server, push, "status_changed", {"old": "idle", "new": "busy"}, before)
-    wait_told(server, push, "status_changed", {"old": "busy", "new": "idle"}, before)
+    assert wait_told(server, push, "status_changed", {"old": "idle", "new": "busy"}, before)
+    assert wait_told(server, push, "status_changed", {"old": "busy", "new": "idle"}, before)
 
 
 def test_box(server, push, board):
@@ -67,13 +67,13 @@ def test_box(server, push, board):
     seq = helpers.value(server, "state.messageBox.seq")
     assert told(push, "message_box_opened")[-1] == {"mode": 2, "seq": seq}
     board.board.execute("M292")
-    wait_told(server, push, "message_box_closed", {"mode": 2, "seq": seq})
+    assert wait_told(server, push, "message_box_closed", {"mode": 2, "seq": seq})
     assert "Secret" not in str(push.events())
 
 
 def test_fault(server, push, board):
     board.board.inject("heater_fault:1")
-    wait_told(server, push, "heater_fault", {"heater": 1})
+    assert wait_told(server, push, "heater_fault", {"heater": 1})
     board.board.clear("heater_fault:1")
     board.board.execute("M562 P1")
 
@@ -81,7 +81,7 @@ def test_fault(server, push, board):
 def test_job(server, push, board):
     board.board.execute('M23 "square.gcode"')
     board.board.execute("M24")
-    wait_told(server, push, "job_started", {})
+    assert wait_told(server, push, "job_started", {})
     (finished,) = server.wait_for(lambda: told(push, "job_finished"), 90, "the end of the job")
     assert finished["cancelled"] is False
     assert finished["duration"] > 0

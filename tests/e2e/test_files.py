@@ -146,10 +146,15 @@ def test_a_card_of_old_firmware_is_not_read(server_factory, board_factory):
 def test_no_card(server, board):
     board.board.execute("M22", channel="http")
     try:
-        server.wait_for(
-            lambda: server.get(FILES, params={"path": "0:/macros"}).status_code == 409,
+        (refused,) = server.wait_for(
+            lambda: [
+                answer
+                for answer in [server.get(FILES, params={"path": "0:/macros"})]
+                if answer.status_code == 409
+            ],
             15,
             "the card to be missed",
         )
+        assert refused.json()["error"].endswith(".")
     finally:
         board.board.execute("M21", channel="http")

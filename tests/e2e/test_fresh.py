@@ -98,6 +98,7 @@ def test_message_box(server, board):
 
 def test_nothing_differs_after_all_that(server, board):
     helpers.wait_equal(server, board)
+    assert helpers.model_differences(server, board) == []
 
 
 def _reset_by_fault(board):

@@ -99,3 +99,4 @@ def test_silence_would_have_ended_the_connection(server, board_factory):
     # what the firmware would do after an M409 as the last request
     board.board.channels["USB"].status_request = "M409"
     server.wait_disconnected(HEATING_SECONDS)
+    assert server.state() != "Operational"

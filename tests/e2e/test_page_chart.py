@@ -92,7 +92,8 @@ def test_every_heater_is_drawn_from_what_the_server_kept(page, view, page_errors
 
 def test_goes_on_while_it_is_open(page, view):
     before = page.evaluate(RANGE)[1]
-    wait_range(page, lambda begin, end: end >= before + 4)
+    begin, end = wait_range(page, lambda begin, end: end >= before + 4)
+    assert before < end and begin < end
 
 
 def test_chosen_series_are_kept(page, server, view):

@@ -71,11 +71,12 @@ def test_a_move_has_the_speed_that_is_shown(view, server, board):
     part(view, "jog-speed").fill("1200")
     part(view, "step").filter(has_text="10").first.click()
     part(axis(view, "X"), "plus").click()
-    server.wait_for(
-        lambda: [line for line in helpers.commands(board)[sent:] if "F1200" in line],
+    (move,) = server.wait_for(
+        lambda: [line for line in helpers.commands(board)[sent:] if "G1 X10" in line],
         15,
-        "the move at that speed",
+        "the move",
     )
+    assert "F1200" in move.split()
 
 
 def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
@@ -218,6 +219,12 @@ def test_each_heater_of_a_tool_has_its_own_temperature(page, module_server_facto
     wait_board(server, board, "tools[2].active", [215, 190])
     type_number(part(tool, "standby").nth(1), 130)
     wait_board(server, board, "tools[2].standby", [150, 130])
+    # one that is off doesn't keep the others from being set
+    with board.board.lock:
+        board.board.data["tools"][2]["active"] = [215, -273.1]
+    expect(part(tool, "active").nth(1)).to_have_value("", timeout=15_000)
+    type_number(part(tool, "active").nth(0), 220)
+    wait_board(server, board, "tools[2].active", [220, 0])
     # a fault of any of them is the tool's
     heaters = board_value(board, "tools[2].heaters")
     board.board.inject(f"heater_fault:{heaters[1]}")

@@ -103,6 +103,7 @@ def test_closes_with_the_connection(server, connect):
         wait_shown(server, push)
         helpers.disconnect(server)
         server.wait_for(lambda: pushed(push)[-1] == CLOSED, 10, "the dialog to close")
+        assert pushed(push).count(CLOSED) == 1
 
 
 def test_off_by_default(server_factory, board_factory):

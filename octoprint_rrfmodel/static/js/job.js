@@ -8,7 +8,7 @@ $(function () {
     const RETRY_MS = 30000;
     const MOST_ATTEMPTS = 5;
 
-    const list = (value) => (Array.isArray(value) ? value : []);
+    const {list} = RRFModel;
     const isNumber = (value) => typeof value === "number";
 
     function RrfModelJobViewModel(parameters) {

@@ -29,8 +29,7 @@ $(function () {
                 state: first.state || "",
                 stateText: stateWord(first.state).text,
                 min: first.min,
-                max: first.max,
-                faults: indices.filter((index) => heaterOf(index).state === "fault")
+                max: first.max
             };
         };
 
@@ -44,7 +43,8 @@ $(function () {
                 return row.heaterCount() > 1 ? label + " (" + (place + 1) + ")" : label;
             }),
             send: function (value) {
-                const values = row[member]().slice();
+                // -273 and below is how firmware says off, and no temperature to ask for
+                const values = row[member]().map((known) => (known <= -273 ? 0 : known));
                 values[place] = value;
                 return core.command("tool_temperatures", {
                     tool: row.number(),
