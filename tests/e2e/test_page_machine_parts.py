@@ -204,6 +204,7 @@ def test_spindle(page, module_server_factory, module_board_factory):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
+    expect(part(spindle, "reverse")).not_to_be_checked(timeout=15_000)
     # and in the mode for it a laser is shown
     expect(part(view, "laser")).to_be_hidden()
     with board.board.lock:
@@ -211,3 +212,32 @@ def test_spindle(page, module_server_factory, module_board_factory):
         board.board.data["move"]["currentMove"]["laserPwm"] = 0.5
         board.board.bump("state")
     wait_text(part(view, "laser"), "50 %")
+
+
+def test_direction_of_a_spindle_that_is_chosen_before_the_last_speed_is_answered(
+    page, module_server_factory, module_board_factory
+):
+    board = module_board_factory(machine="cnc", speed=20)
+    server = module_server_factory()
+    helpers.connect(server, board)
+    spindle = part(opened(page, server, ADMIN), "spindle")
+    reverse = part(spindle, "reverse")
+    held = []
+    page.route(
+        "**/api/plugin/rrfmodel",
+        lambda route: held.append((route, route.fetch())),
+        times=1,
+    )
+    type_number(part(spindle, "rpm"), 900)
+    # what is held is seen while Playwright is at work
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the speed to be sent")
+    wait_board(server, board, "spindles[0].state", "forward")
+    reverse.check()
+    route, answer = held[0]
+    with page.expect_response("**/api/plugin/rrfmodel"):
+        route.fulfill(response=answer)
+    wait_text(part(spindle, "current"), "900")
+    expect(reverse).to_be_checked()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].active", 6000)
+    assert board_value(board, "spindles[0].state") == "reverse"

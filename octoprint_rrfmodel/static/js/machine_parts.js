@@ -128,20 +128,31 @@ $(function () {
                     })),
             function (row) {
                 row.label = _.sprintf(gettext("Speed of %(name)s in rpm"), {name: row.name()});
-                /** What somebody wants; until then it turns as it does. */
+                /** What somebody has chosen, until the machine turns that way. */
                 const wanted = ko.observable(null);
+                let isSent = false;
                 row.isReverse = ko.pureComputed({
                     read: () => (wanted() === null ? row.turnsBack() : wanted()),
-                    write: wanted
+                    write: function (isReverse) {
+                        // while the machine is to turn another way, its present one says nothing
+                        const isNew = isSent || isReverse !== row.turnsBack();
+                        isSent = false;
+                        wanted(isNew ? isReverse : null);
+                    }
                 });
-                row.set = (rpm) =>
-                    core
-                        .command("spindle", {
-                            spindle: row.key,
-                            rpm: rpm,
-                            direction: row.isReverse() ? "reverse" : "forward"
-                        })
-                        .done(() => wanted(null));
+                row.turnsBack.subscribe(function (turnsBack) {
+                    if (!isSent && turnsBack !== wanted()) return;
+                    isSent = false;
+                    wanted(null);
+                });
+                row.set = function (rpm) {
+                    isSent = wanted() !== null;
+                    return core.command("spindle", {
+                        spindle: row.key,
+                        rpm: rpm,
+                        direction: row.isReverse() ? "reverse" : "forward"
+                    });
+                };
                 row.stop = () => core.command("spindle", {spindle: row.key, rpm: 0});
             }
         );
