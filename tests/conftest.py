@@ -13,6 +13,7 @@ import pytest
 
 from tests.support import broker as mqtt
 from tests.support import browser as chromium
+from tests.support import waiting
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -169,8 +170,9 @@ def browser():
         message = f"no browser: install Debian's chromium ({chromium.CHROMIUM})"
         # on a CI machine nobody reads about a skipped test
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import expect, sync_playwright
 
+    expect.set_options(timeout=waiting.PATIENCE * 10_000)
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS

@@ -86,7 +86,7 @@ def test_every_heater_is_drawn_from_what_the_server_kept(page, view, page_errors
     assert [series["dashed"] for series in drawn].count(True) == 1
     wait_text(part(row(view, "heater1"), "current"), "°C")
     wait_text(part(row(view, "heater1"), "target"), "55")
-    assert part(row(view, "heater0"), "name").inner_text() == "Bed"
+    expect(part(row(view, "heater0"), "name")).to_have_text("Bed")
     assert own_errors(page_errors) == []
 
 

@@ -55,6 +55,8 @@ def open_tab(page, address):
 @pytest.mark.parametrize("user", [ADMIN, READER], ids=["admin", "reader"])
 def test_axe_finds_nothing_serious(page, server, view, user, page_errors):
     open_view(page, server, user, view)
+    # the whole model is in the page
+    expect(part(page, "status").first).to_have_text("Idle")
     assert serious(page) == []
     assert own_errors(page_errors) == []
 

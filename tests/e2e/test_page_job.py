@@ -91,7 +91,7 @@ def confirm(page):
 
 
 def test_tells_of_file_progress_and_times(view, server):
-    assert part(view, "file").inner_text() == "parts/clip.gcode"
+    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=15_000)
     wait_text(part(view, "status"), "Printing")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     wait_text(part(view, "filament"), "1.50 m + 0.25 m")
@@ -164,7 +164,7 @@ def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, vie
 def test_objects(page, view, server, board):
     objects = part(view, "object")
     expect(objects).to_have_count(2, timeout=20_000)
-    assert part(objects, "name").all_inner_texts() == list(NAMES)
+    expect(part(objects, "name")).to_have_text(list(NAMES))
     wait_text(objects.nth(0), "X 80…120")
     part(objects.nth(1), "object-cancel").click()
     confirm(page)
@@ -253,6 +253,26 @@ def test_a_refusal_is_told(page, view, server, board):
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
         "The machine has no job.", timeout=15_000
     )
+
+
+def test_a_picture_that_was_refused_is_asked_for_again(page, server, idle):
+    begin(server, idle)
+    page.clock.install()
+    # the machine had no time for it
+    page.route("**/rrfmodel/thumbnail?*", lambda route: route.fulfill(status=504), times=1)
+    with page.expect_response("**/rrfmodel/thumbnail?*") as refused:
+        view = open_view(page, server, ADMIN, "job")
+    assert refused.value.status == 504
+    picture = part(view, "picture")
+    picture.evaluate(
+        """image => image.complete ||
+            new Promise(resolve => image.addEventListener("error", () => resolve()))"""
+    )
+    expect(picture).to_be_hidden()
+    with page.expect_response("**/rrfmodel/thumbnail?*") as answered:
+        page.clock.fast_forward(31_000)
+    assert answered.value.body() == PICTURE
+    expect(picture).to_be_visible()
 
 
 def test_narrow(page, view):

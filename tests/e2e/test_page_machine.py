@@ -81,14 +81,15 @@ def test_a_move_has_the_speed_that_is_shown(view, server, board):
 
 def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
     field = part(part(view, "tool").first, "standby")
+    expect(field).not_to_have_value("", timeout=15_000)
     before = field.input_value()
     field.fill("99")
     board.board.execute("M568 P3 S31", channel="http")
     wait_board(server, board, "tools[3].active[0]", 31)
     helpers.wait_polls(server, 3)
-    assert field.input_value() == "99"
+    expect(field).to_have_value("99")
     field.press("Escape")
-    assert field.input_value() == before
+    expect(field).to_have_value(before)
     assert board_value(board, "tools[1].standby[0]") != 99
 
 
@@ -96,7 +97,7 @@ def test_what_is_out_of_range_is_not_sent(view, server, board):
     field = part(part(view, "tool").first, "active")
     before = board_value(board, "tools[1].active[0]")
     type_number(field, 900)
-    assert field.input_value() == "900"
+    expect(field).to_have_value("900")
     type_number(field, 37)
     wait_board(server, board, "tools[1].active[0]", 37)
     assert before != 900

@@ -71,9 +71,7 @@ def sent(server):
 def test_macros(page, view, server, board, page_errors):
     part(view, "macros").click()
     macros = part(view, "macro")
-    macros.first.wait_for()
-    names = [name.strip() for name in macros.all_inner_texts()]
-    assert names == ["<u>More", "Ask first", "Say hello"]
+    expect(macros).to_have_text(["<u>More", "Ask first", "Say hello"], timeout=15_000)
     macros.last.click()
     server.wait_for(
         lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 10, "the macro to be run"

@@ -68,7 +68,7 @@ def test_keyboard(view):
     selected = tree(view).get_attribute("aria-activedescendant")
     expect(view.locator(f"#{selected}")).to_have_attribute("aria-selected", "true")
     press(view, "Enter", "ArrowDown")
-    assert path(view).inner_text().startswith("boards[0].")
+    wait_text(path(view), "boards[0].")
     press(view, "ArrowUp", "ArrowLeft")
     expect(row(view, "[0]", 2)).to_have_attribute("aria-expanded", "false")
     press(view, "ArrowLeft")

@@ -1,5 +1,7 @@
 """The sidebar in a real browser, fed by push."""
 
+import re
+
 import pytest
 from playwright.sync_api import expect
 
@@ -32,8 +34,6 @@ def text_of(sidebar, name):
 
 def wait_text(locator, wanted, seconds=15):
     """Return once the element's text has ``wanted`` in it."""
-    from playwright.sync_api import expect
-
     expect(locator).to_contain_text(wanted, timeout=seconds * 1000)
 
 
@@ -46,10 +46,9 @@ def test_shows_the_machine(sidebar, page_errors):
     wait_text(text_of(sidebar, "status"), "Idle")
     wait_text(text_of(sidebar, "tool"), "none")
     heaters = text_of(sidebar, "heater")
-    assert heaters.count() == 2
-    assert "Bed" in heaters.nth(1).inner_text()
-    axes = text_of(sidebar, "axis")
-    assert [axis.strip().split()[0] for axis in axes.all_inner_texts()] == ["X", "Y", "Z"]
+    expect(heaters).to_have_count(2)
+    wait_text(heaters.nth(1), "Bed")
+    expect(text_of(sidebar, "axis")).to_have_text([re.compile(rf"^\s*{axis}\b") for axis in "XYZ"])
     wait_text(text_of(sidebar, "age"), "s ago")
     assert own(page_errors) == []
 

@@ -148,11 +148,17 @@ $(function () {
 
         /** Keys that were pushed since the whole model was asked for, null where it isn't. */
         let asked = null;
+        /** How often the server has told the state by itself. */
+        let told = 0;
 
         self.requestData = function () {
+            asked = null;
             if (!self.mayRead()) return;
-            OctoPrint.plugins.rrfmodel.getStatus().done(function (status) {
-                self.fromStatus(status);
+            const toldBefore = told;
+            OctoPrint.plugins.rrfmodel.getStatus().done(function (answer) {
+                // one that comes late says less than what was pushed since
+                if (told === toldBefore) self.fromStatus(answer);
+                const status = self.status();
                 if (!status.is_rrf || !status.revision) {
                     replace({});
                     return;
@@ -201,6 +207,7 @@ $(function () {
                 if (asked) keys.forEach((key) => asked.add(key));
                 feeds.forEach((feed) => feed.changed(keys));
             }
+            told += 1;
             self.fromStatus(message.status);
         };
 
