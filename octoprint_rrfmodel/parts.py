@@ -42,7 +42,7 @@ class Parts:
     """Makes the parts and hands on what happens; ``host`` is OctoPrint (``host.Host``)."""
 
     def __init__(self, host):
-        clock = time.monotonic
+        clock = self._clock = time.monotonic
         self._host = host
         self._follower = Follower()
         self.protection = Protection(
@@ -219,7 +219,7 @@ class Parts:
     def _notice(self, code, detail):
         text = notice_text(code, detail)
         notice = {"type": "notice", "code": code, "detail": detail, "text": text}
-        self._host.tell_pages(notice)
+        self._host.tell_pages({**notice, "at": round(self._clock(), 3)})
 
     ##~~ on the worker
 

@@ -6,12 +6,16 @@ Messages of the plugin ``rrfmodel``, for those who have READ:
   of the object model that changed since the last message, each whole.
 * ``{"type": "status", "status": {...}}``: nothing of the model changed, but the state did.
 * ``{"type": "reset", "status": {...}}``: what was known holds no longer, more will follow.
-* ``{"type": "notice", "code", "text"}``, at once: something that was asked for didn't happen.
+* ``{"type": "notice", "code", "detail", "text", "at"}``, at once: something that was asked for
+  didn't happen.
+
+OctoPrint keeps the first messages that nobody on a page may see, and hands them over when somebody
+logs in there; ``at``, of the state too, is the time by which a page tells old ones.
 """
 
 SHORTEST_SECONDS = 0.5
 
-UNIMPORTANT = frozenset(("age", "revision", "counters"))
+UNIMPORTANT = frozenset(("age", "at", "revision", "counters"))
 """Members of the state that change all the time and are worth no message of their own."""
 
 

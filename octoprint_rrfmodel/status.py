@@ -23,7 +23,8 @@ class PluginStatus:
         """Return the state in the shape of the public contract, section 2."""
         follower, poller = self._follower, self._poller
         applied_at = poller.applied_at
-        age = None if applied_at is None else round(self._clock() - applied_at, 2)
+        now = self._clock()
+        age = None if applied_at is None else round(now - applied_at, 2)
         return {
             "version": self._version(),
             "connected": self._is_connected(),
@@ -34,6 +35,7 @@ class PluginStatus:
             "stale": poller.is_stale(),
             "blocked": poller.blocked(),
             "age": age,
+            "at": round(now, 3),
             "revision": follower.store.revision,
             "resets": follower.resets,
             "counters": {

@@ -24,6 +24,7 @@ STATUS_TYPES = {
     "stale": bool,
     "blocked": (str, type(None)),
     "age": (int, float, type(None)),
+    "at": (int, float),
     "revision": int,
     "resets": int,
     "counters": dict,

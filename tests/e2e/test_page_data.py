@@ -88,3 +88,54 @@ def test_a_late_state_does_not_take_the_machine_away(page_of, server, board, pag
     expect(part(page_of, "axis")).to_have_count(3)
     expect(part(page_of, "status").first).to_have_text("Idle")
     assert own_errors(page_errors) == []
+
+
+def test_what_was_missed_while_the_socket_was_away_is_asked_for(page_of, page_errors):
+    expect(part(page_of, "axis")).to_have_count(3)
+    with page_of.expect_response("**/plugin/rrfmodel/model?*") as answered:
+        page_of.evaluate("OctoPrint.socket.socket.close(3000)")
+    assert answered.value.ok
+    expect(page_of.locator("#offline_overlay")).to_be_hidden()
+    expect(part(page_of, "axis")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_messages_kept_until_somebody_logs_in_are_no_news(page_of, server, page_errors):
+    expect(part(page_of, "axis")).to_have_count(3)
+    notices = page_of.locator(".ui-pnotify:visible .ui-pnotify-text")
+    page_of.evaluate(
+        """() => {
+            const page = OctoPrint.coreui.viewmodels.rrfModelViewModel;
+            const now = page.status();
+            const before = Object.assign({}, now, {at: now.at - 3600, is_rrf: false});
+            const told = (message) => page.onDataUpdaterPluginMessage("rrfmodel", message);
+            told({type: "notice", code: "old", text: "An old notice.", at: before.at});
+            told({type: "reset", status: before});
+            told({type: "notice", code: "new", text: "A new notice.", at: now.at + 0.001});
+        }"""
+    )
+    expect(notices.filter(has_text="A new notice.")).to_have_count(1)
+    expect(notices.filter(has_text="An old notice.")).to_have_count(0)
+    expect(part(page_of, "axis")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_a_model_that_the_server_did_not_have_is_asked_for_again(page, server, page_errors):
+    page.clock.install()
+    page.route(
+        "**/plugin/rrfmodel/model?*",
+        lambda route: route.fulfill(status=503, json={"error": "Not yet."}),
+        times=1,
+    )
+    answers = []
+    page.on(
+        "response",
+        lambda response: "/rrfmodel/model?" in response.url and answers.append(response.status),
+    )
+    open_octoprint(page, server, ADMIN)
+    # the page sees the refusal a little later than this test does
+    server.wait_for(
+        lambda: page.clock.fast_forward(6_000) or 200 in answers, 30, "the second question"
+    )
+    assert answers[0] == 503
+    expect(part(page, "axis")).to_have_count(3)

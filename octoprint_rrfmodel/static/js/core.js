@@ -5,6 +5,8 @@ $(function () {
     /** Sub-views of the tab, in the order of their links; the address is TAB + "/" + name. */
     const VIEWS = ["machine", "job", "chart", "model"];
     const TAB = "#tab_plugin_rrfmodel";
+    /** Until the model is asked for again that the server didn't have. */
+    const AGAIN_MS = 5000;
 
     /**
      * Returns a function `key => value` over the model that moves only while `isShown()` does:
@@ -148,51 +150,73 @@ $(function () {
 
         /** Keys that were pushed since the whole model was asked for, null where it isn't. */
         let asked = null;
-        /** How often the server has told the state by itself. */
-        let told = 0;
+        let askingAgain;
+        /** The server's time of the latest state; OctoPrint hands over old messages at a log-in. */
+        let toldAt = -Infinity;
+        /** Whether a notice may be one of those, as no state is known yet. */
+        let mayBeOld = true;
 
         self.requestData = function () {
             asked = null;
+            window.clearTimeout(askingAgain);
             if (!self.mayRead()) return;
-            const toldBefore = told;
             OctoPrint.plugins.rrfmodel.getStatus().done(function (answer) {
+                mayBeOld = false;
                 // one that comes late says less than what was pushed since
-                if (told === toldBefore) self.fromStatus(answer);
+                if (answer.at >= toldAt) self.fromStatus(answer);
                 const status = self.status();
-                if (!status.is_rrf || !status.revision) {
-                    replace({});
-                    return;
-                }
-                const pushed = (asked = new Set());
-                OctoPrint.plugins.rrfmodel.getModel("", "d99vno").done(function (answer) {
-                    // it is of no use any more behind a reset or a later question
-                    if (asked !== pushed) return;
-                    asked = null;
-                    const model = Object.assign({}, answer.result);
-                    pushed.forEach((key) => (model[key] = latest[key]));
-                    replace(model);
-                });
+                if (status.is_rrf && status.revision) requestModel();
+                else replace({});
             });
         };
 
+        const requestModel = function () {
+            const pushed = (asked = new Set());
+            const take = function (model) {
+                // it is of no use any more behind a reset or a later question
+                if (asked !== pushed) return;
+                asked = null;
+                pushed.forEach((key) => (model[key] = latest[key]));
+                replace(model);
+            };
+            OctoPrint.plugins.rrfmodel
+                .getModel("", "d99vno")
+                .done((answer) => take(Object.assign({}, answer.result)))
+                .fail(function () {
+                    if (asked !== pushed) return;
+                    // what is known may be another machine's
+                    take({});
+                    askingAgain = window.setTimeout(self.requestData, AGAIN_MS);
+                });
+        };
+
         self.fromStatus = function (status) {
+            toldAt = status.at;
             self.received({age: status.age, at: Date.now()});
             self.status(status);
         };
 
         self.onStartupComplete = self.requestData;
-        self.onServerReconnect = self.requestData;
+        // only the first attempt to connect again succeeds without its being called a reconnect
+        self.onServerConnect = self.onServerReconnect = function () {
+            toldAt = -Infinity;
+            self.requestData();
+        };
         self.onUserPermissionsChanged =
             self.onUserLoggedIn =
             self.onUserLoggedOut =
                 function () {
+                    mayBeOld = true;
                     replace({});
                     self.requestData();
                 };
 
         self.onDataUpdaterPluginMessage = function (plugin, message) {
             if (plugin !== "rrfmodel" || !self.mayRead()) return;
+            const isOld = (message.status || message).at < toldAt;
+            if (isOld) return;
             if (message.type === "notice") {
+                if (mayBeOld) return;
                 // a print that is paused is a warning for as long as it is
                 if (message.code !== "print_paused") self.notify(RRFModel.noticeText(message));
                 return;
@@ -207,7 +231,6 @@ $(function () {
                 if (asked) keys.forEach((key) => asked.add(key));
                 feeds.forEach((feed) => feed.changed(keys));
             }
-            told += 1;
             self.fromStatus(message.status);
         };
 
