@@ -4,6 +4,7 @@ import json
 
 from playwright.sync_api import expect
 
+from tests.support import waiting
 from tests.support.browser import open_octoprint
 
 SECONDS = 15
@@ -34,11 +35,14 @@ def type_number(field, number):
 
 
 def board_value(board, key):
-    """Return the value that the board itself has for a key, ``None`` while it has no time."""
-    # a channel of its own: that of a test's commands may be busy
-    said = board.board.execute(f'M409 K"{key}" F"vnd99"', channel="telnet").splitlines()
-    replies = [line for line in said if line.startswith("{")]
-    return json.loads(replies[-1])["result"] if replies else None
+    """Return the value that the board itself has for a key."""
+
+    def answer():
+        # a channel of its own: that of a test's commands may be busy
+        said = board.board.execute(f'M409 K"{key}" F"vnd99"', channel="telnet").splitlines()
+        return [json.loads(line) for line in said if line.startswith("{")]
+
+    return waiting.wait_for(answer, SECONDS, f"the board's answer about {key}")[-1]["result"]
 
 
 def wait_board(server, board, key, wanted, seconds=SECONDS):

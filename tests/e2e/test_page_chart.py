@@ -63,12 +63,21 @@ def wait_drawn(page, fits):
 
 def wait_range(page, fits):
     """Return begin and end of the chart once they are as wanted."""
-    for _ in range(40):
+    # rows come every two seconds, and are asked for every two
+    for _ in range(200):
         seen = page.evaluate(RANGE)
         if fits(*seen):
             return seen
         page.wait_for_timeout(100)
     raise AssertionError(seen)
+
+
+def held_range(page):
+    """Return begin and end of a chart that is held, once what was under way is drawn."""
+    page.evaluate(
+        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
+    return page.evaluate(RANGE)
 
 
 def length(begin, end):
@@ -123,7 +132,7 @@ def test_spans_zoom_and_hold(page, view):
     hold = part(view, "hold")
     hold.click()
     expect(hold).to_have_attribute("aria-pressed", "true")
-    held = page.evaluate(RANGE)
+    held = held_range(page)
     part(view, "earlier").click()
     wait_range(page, lambda begin, end: end < held[1])
     part(view, "later").click()
@@ -134,7 +143,7 @@ def test_spans_zoom_and_hold(page, view):
 
 def test_a_held_chart_stands_still(page, view):
     part(view, "hold").click()
-    held = page.evaluate(RANGE)
+    held = held_range(page)
     with page.expect_response(lambda response: "/history" in response.url):
         pass
     with page.expect_response(lambda response: "/history" in response.url):

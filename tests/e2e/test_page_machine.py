@@ -193,9 +193,19 @@ def test_text_of_the_printer_is_text(view, server, board, page_errors):
 def test_who_may_only_read_can_use_nothing(page, server):
     view = open_view(page, server, READER, "machine")
     controls = view.locator("button:visible, input:visible")
-    part(view, "axis-row").first.wait_for()
+    expect(part(view, "axis-row")).not_to_have_count(0)
+    expect(part(view, "tool")).not_to_have_count(0)
     assert controls.count() > 20
     assert {control.is_disabled() for control in controls.all()} == {True}
+
+
+def test_says_why_what_it_shows_is_old(page, view, server):
+    reason = page.locator("[data-test=tab-reason]")
+    expect(reason).to_be_hidden()
+    server.commands("G4 S20")
+    expect(reason).to_be_visible(timeout=20_000)
+    expect(reason).to_contain_text("long command")
+    expect(reason).to_be_hidden(timeout=60_000)
 
 
 def test_refusals_are_told(page, view, server, board):

@@ -93,6 +93,21 @@ def test_macros_in_a_folder(view, server, page_errors):
     assert own_errors(page_errors) == []
 
 
+def test_a_double_click_on_a_folder_runs_no_macro(view, server):
+    part(view, "macros").click()
+    expect(part(view, "macro")).to_have_count(3)
+    before = len(sent(server))
+    # the folder's content is known, so that it comes at once
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "More")
+    part(view, "macro-up").click()
+    expect(part(view, "macro")).to_have_count(3)
+    part(view, "macro").first.dblclick()
+    wait_text(part(view, "macro-path"), "More")
+    helpers.wait_polls(server, 2)
+    assert not [line for line in sent(server)[before:] if "M98" in line]
+
+
 def test_text_of_the_machine_is_never_markup(view, board, page_errors):
     data = board.board.data
     before = data["boards"][0]["name"], data["network"]["name"]

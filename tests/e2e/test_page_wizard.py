@@ -111,7 +111,7 @@ def test_who_declines_is_not_asked_again(page, server, page_errors):
     expect(wizard).to_be_visible(timeout=15_000)
     part(wizard, "wizard-never").click()
     expect(wizard).to_be_hidden()
-    server.wait_for(lambda: not helpers.status(server)["first_run"], 5, "the end of the first run")
+    server.wait_for(lambda: not helpers.status(server)["first_run"], 15, "the end of the first run")
     # nothing was written
     assert not all(row["fulfilled"] for row in setup(server)["settings"])
     assert setup(server)["profile"]

@@ -164,9 +164,16 @@ $(function () {
             // the box stays in the model until the next poll, and so do its buttons; who presses
             // again may answer the next box
             self.isSending(true);
+            const answered = shown;
+            const ifSame = (act) => () => answered === shown && act();
             core.command("message_box", values)
-                .done(() => (unlocking = window.setTimeout(unlock, ANSWERED_MS)))
-                .fail(unlock);
+                .done(ifSame(() => (unlocking = window.setTimeout(unlock, ANSWERED_MS))))
+                .fail(
+                    ifSame(function () {
+                        unlock();
+                        takeFocus();
+                    })
+                );
         };
 
         self.ok = function () {
@@ -225,8 +232,14 @@ $(function () {
             self.value(box.default !== undefined && box.default !== null ? String(box.default) : "");
             closesAt = box.timeout > 0 ? Date.now() + box.timeout : 0;
             tick();
-            open();
+            if (wasOpen) takeFocus();
+            else open();
         };
+
+        /** The button that was pressed has lost it when it was locked. */
+        const takeFocus = () => window.setTimeout(focusOnContent);
+        // on no button: a key that was meant for something else would answer
+        const focusOnContent = () => dialog.find("input:visible, h3").last().trigger("focus");
 
         const open = () => dialog.modal({backdrop: "static", keyboard: false});
 
@@ -249,10 +262,7 @@ $(function () {
 
         self.onAllBound = function () {
             dialog = $("#rrfmodel_box_dialog");
-            dialog.on("shown", function () {
-                // no button: a key that was meant for something else would answer
-                dialog.find("input:visible, h3").last().trigger("focus");
-            });
+            dialog.on("shown", focusOnContent);
             self.box.subscribe(update);
             update(self.box());
             window.setInterval(() => shown !== null && tick(), 1000);

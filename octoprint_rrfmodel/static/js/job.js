@@ -168,7 +168,10 @@ $(function () {
             );
         self.start = () => start(self.path());
         self.simulate = () => begin("simulate", self.path());
-        self.maySelected = ko.pureComputed(() => !self.hasJob() && !!self.path());
+        // a job may outlast the loss of the motors' supply
+        self.maySelected = ko.pureComputed(
+            () => !self.hasJob() && status() !== "off" && !!self.path()
+        );
 
         //~~ objects
 

@@ -36,7 +36,14 @@ $(function () {
         const target = (value) => (typeof value === "number" && value > -273 ? value : null);
 
         /** One field for each heater of a tool; the others keep what they have. */
-        const heaterField = (row, member, text) => (place) => ({
+        const heaterFields = function (row, member, text) {
+            const given = RRFModel.lastGiven(core, () => row[member]());
+            const places = ko.pureComputed(() => _.range(row.heaterCount()));
+            return ko.pureComputed(() => places().map(heaterField(row, member, text, given)));
+        };
+        const heaterField = (row, member, text, given) => (place) => ({
+            min: ko.pureComputed(() => heaterOf(row.heaters()[place]).min),
+            max: ko.pureComputed(() => heaterOf(row.heaters()[place]).max),
             value: ko.pureComputed(() => target(row[member]()[place])),
             label: ko.pureComputed(() => {
                 const label = _.sprintf(text, {name: row.name()});
@@ -44,12 +51,15 @@ $(function () {
             }),
             send: function (value) {
                 // -273 and below is how firmware says off, and no temperature to ask for
-                const values = row[member]().map((known) => (known <= -273 ? 0 : known));
+                const values = given.values().map((known) => (known <= -273 ? 0 : known));
                 values[place] = value;
-                return core.command("tool_temperatures", {
-                    tool: row.number(),
-                    [member]: values.length > 1 ? values : value
-                });
+                return given.send(
+                    values,
+                    core.command("tool_temperatures", {
+                        tool: row.number(),
+                        [member]: values.length > 1 ? values : value
+                    })
+                );
             }
         });
 
@@ -74,6 +84,7 @@ $(function () {
                         isSelected: state.currentTool === tool.number,
                         hasHeater: count > 0,
                         heaterCount: count,
+                        heaters: list(tool.heaters),
                         active: list(tool.active).slice(0, count),
                         standby: list(tool.standby).slice(0, count),
                         filament: fed.filament || "",
@@ -90,16 +101,15 @@ $(function () {
             },
             function (row) {
                 row.select = () => core.command("select_tool", {tool: row.number()});
-                const places = ko.pureComputed(() => _.range(row.heaterCount()));
-                row.activeFields = ko.pureComputed(() =>
-                    places().map(
-                        heaterField(row, "active", gettext("Active temperature of %(name)s"))
-                    )
+                row.activeFields = heaterFields(
+                    row,
+                    "active",
+                    gettext("Active temperature of %(name)s")
                 );
-                row.standbyFields = ko.pureComputed(() =>
-                    places().map(
-                        heaterField(row, "standby", gettext("Standby temperature of %(name)s"))
-                    )
+                row.standbyFields = heaterFields(
+                    row,
+                    "standby",
+                    gettext("Standby temperature of %(name)s")
                 );
                 row.setState = (state) => () =>
                     core.command("tool_state", {tool: row.number(), state: state});
@@ -147,9 +157,20 @@ $(function () {
             function (row) {
                 const send = (values) =>
                     core.command(row.command(), Object.assign({index: row.index()}, values));
-                row.setActive = (value) => send({active: value});
+                const active = RRFModel.lastGiven(core, () => [row.active()]);
+                row.setActive = (value) => active.send([value], send({active: value}));
                 row.setStandby = (value) => send({standby: value});
-                row.setState = (state) => () => send({state: state});
+                // what only switches a chamber on is its temperature, which the server takes from
+                // its model
+                row.setState = (state) => function () {
+                    const [known] = active.values();
+                    const needsTarget = state === "active" && row.command() === "chamber";
+                    send(
+                        needsTarget && typeof known === "number"
+                            ? {active: known, state: state}
+                            : {state: state}
+                    );
+                };
                 row.activeLabel = named(row, gettext("Active temperature of %(name)s"));
                 row.standbyLabel = named(row, gettext("Standby temperature of %(name)s"));
             }

@@ -2,6 +2,7 @@
 $(function () {
     const MACROS = "0:/macros";
     const FILAMENTS = "0:/filaments";
+    const NEW_MS = 500;
 
     const {list, numbered} = RRFModel;
     const object = (value) => (value && typeof value === "object" ? value : {});
@@ -14,10 +15,13 @@ $(function () {
         self.isOpen = ko.observable(false);
         self.isReading = ko.observable(false);
         self.isRoot = ko.pureComputed(() => self.path() === root);
+        /** Too new to be picked from: the second half of a double click would run a macro. */
+        self.isNew = ko.observable(false);
         let generation = 0;
+        let settling;
 
         const read = function (path) {
-            const asked = generation;
+            const asked = (generation += 1);
             self.isReading(true);
             OctoPrint.plugins.rrfmodel
                 .getFiles(path)
@@ -31,9 +35,12 @@ $(function () {
                         )
                     );
                     self.isOpen(true);
+                    self.isNew(true);
+                    window.clearTimeout(settling);
+                    settling = window.setTimeout(() => self.isNew(false), NEW_MS);
                 })
                 .fail(core.tellRefusal)
-                .always(() => self.isReading(false));
+                .always(() => asked === generation && self.isReading(false));
         };
         self.show = () => (self.isOpen() ? self.isOpen(false) : read(root));
         self.enter = (entry) => read(self.path() + "/" + entry.name);
@@ -43,6 +50,7 @@ $(function () {
         // the next machine has a card of its own
         const close = function () {
             generation += 1;
+            self.isReading(false);
             self.isOpen(false);
         };
         core.isRrf.subscribe(close);
@@ -210,19 +218,19 @@ $(function () {
 
         //~~ boards, network, volumes
 
+        /** Without what follows it of one build or another. */
+        const versionOf = (board) => String(object(board).firmwareVersion || "").split(/[+ ]/)[0];
         const volts = (value) => (typeof value === "number" ? value.toFixed(1) + " V" : "");
         self.boards = RRFModel.rows(() =>
             numbered(model("boards")).map(function (found) {
                 const board = found.item;
-                const main = object(list(model("boards"))[0]);
+                const main = list(model("boards"))[0];
                 const temperature = object(board.mcuTemp).current;
                 return {
                     key: found.index,
                     name: board.name || board.shortName || String(found.index),
                     version: board.firmwareVersion || "",
-                    differs:
-                        !!board.firmwareVersion &&
-                        board.firmwareVersion !== main.firmwareVersion,
+                    differs: !!board.firmwareVersion && versionOf(board) !== versionOf(main),
                     supply: volts(object(board.vIn).current),
                     twelve: volts(object(board.v12).current),
                     temperature:

@@ -1,5 +1,10 @@
 /* Lists that stay in place while their values change, and fields that show a value and set it. */
 $(function () {
+    /** A reply that came so soon after a command may have been asked for before it. */
+    const UNDERWAY_MS = 2000;
+    /** Then what was sent holds no longer, though no newer model has come. */
+    const LOST_MS = 30000;
+
     RRFModel.list = (value) => (Array.isArray(value) ? value : []);
 
     /** Elements of an array of the model with their indices, gaps left out. */
@@ -53,6 +58,32 @@ $(function () {
             // once for an update, however many keys of the model came with it
         }).extend({deferred: true});
         return rows;
+    };
+
+    /**
+     * Returns what `told()` says of the machine, an array of values, each with what was sent in its
+     * stead as long as the model may be older than that: `values()`, and `send(values, promise)`
+     * for what goes out now.
+     */
+    RRFModel.lastGiven = function (core, told) {
+        let sent = null;
+        const isTold = function () {
+            const {age, at} = core.received();
+            const isLater = typeof age === "number" && at - age * 1000 > sent.at + UNDERWAY_MS;
+            return isLater || (!core.status().blocked && Date.now() - sent.at > LOST_MS);
+        };
+        return {
+            values: () =>
+                told().map((value, place) =>
+                    sent && !isTold() && value === sent.before[place] ? sent.values[place] : value
+                ),
+            send: function (values, promise) {
+                const mine = (sent = {values: values, before: told(), at: Date.now()});
+                return promise.fail(() => {
+                    if (sent === mine) sent = null;
+                });
+            }
+        };
     };
 
     /**

@@ -65,13 +65,17 @@ $(function () {
                     stateText: row.fulfilled ? gettext("as needed") : gettext("to be set")
                 }))
             );
+            const unwanted = self
+                .fields()
+                .filter((row) => !row.isWanted())
+                .map((row) => row.field);
             self.fields(
                 setup.profile.map((row) => ({
                     field: row.field,
                     name: fieldNames[row.field] || row.field,
                     now: shown(row.now),
                     wanted: shown(row.wanted),
-                    isWanted: ko.observable(true)
+                    isWanted: ko.observable(!unwanted.includes(row.field))
                 }))
             );
         };

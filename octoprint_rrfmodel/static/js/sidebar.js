@@ -11,10 +11,10 @@ $(function () {
     const show = RRFModel.show;
 
     /** @returns {HeaterRow} */
-    function heaterRow(name, heater) {
+    function heaterRow(key, name, heater) {
         const state = words.heater[heater.state] || {text: heater.state || "", label: ""};
         return {
-            key: name,
+            key: key,
             name: name,
             current: show.degrees(heater.current),
             active: show.target(heater.active),
@@ -30,23 +30,24 @@ $(function () {
         const heat = model.heat || {};
         const heaters = heat.heaters || [];
         const rows = [];
-        (model.tools || []).forEach(function (tool) {
+        (model.tools || []).forEach(function (tool, number) {
             if (!tool) return;
             (tool.heaters || []).forEach(function (index, place) {
                 if (!heaters[index]) return;
                 const title = tool.name || _.sprintf(gettext("Tool %(number)s"), tool);
-                rows.push(
-                    heaterRow(place ? title + " (" + (place + 1) + ")" : title, heaters[index])
-                );
+                const name = place ? title + " (" + (place + 1) + ")" : title;
+                // two tools may have one name
+                rows.push(heaterRow("tool" + number + "." + place, name, heaters[index]));
             });
         });
         [
-            {slots: heat.bedHeaters, title: gettext("Bed")},
-            {slots: heat.chamberHeaters, title: gettext("Chamber")}
+            {slots: heat.bedHeaters, key: "bed", title: gettext("Bed")},
+            {slots: heat.chamberHeaters, key: "chamber", title: gettext("Chamber")}
         ].forEach(function (kind) {
             (kind.slots || []).forEach(function (index, slot) {
                 if (!heaters[index]) return;
-                rows.push(heaterRow(slot ? kind.title + " " + slot : kind.title, heaters[index]));
+                const name = slot ? kind.title + " " + slot : kind.title;
+                rows.push(heaterRow(kind.key + slot, name, heaters[index]));
             });
         });
         return rows;
@@ -215,6 +216,10 @@ $(function () {
             return self.isStale() ? gettext("the printer does not answer") : "";
         });
 
+        self.tellsInTab = ko.pureComputed(
+            () => core.tabIsOpen() && core.pageIsVisible() && self.isShown() && !!self.reasonText()
+        );
+
         core.received.subscribe(() => self.now(Date.now()));
 
         window.setInterval(function () {
@@ -225,6 +230,6 @@ $(function () {
     OCTOPRINT_VIEWMODELS.push({
         construct: RrfModelSidebarViewModel,
         dependencies: ["rrfModelViewModel", "rrfModelNotificationsViewModel"],
-        elements: ["#sidebar_plugin_rrfmodel"]
+        elements: ["#sidebar_plugin_rrfmodel", "#rrfmodel_age"]
     });
 });
