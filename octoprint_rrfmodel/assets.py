@@ -9,6 +9,7 @@ SCRIPTS = (
     "tree",
     "chart_parts",
     "machine_heat",
+    "machine_facts",
     # regions of the page, each on its own
     "notifications",
     "sidebar",

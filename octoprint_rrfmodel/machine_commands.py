@@ -67,6 +67,10 @@ class MachineCommands:
             return outcome.status, command_text(outcome.code, outcome.values)
         if name == "recover":
             return self._recover()
+        if name == "emergency_stop":
+            # past all queues, as what OctoPrint streams is one
+            self._printer().commands(list(outcome.lines), tags={COMMAND_TAG}, force=True)
+            return None
         if not self.rate.allows():
             return 409, command_text("too_many", {})
         if name == "refresh":

@@ -253,6 +253,7 @@ def test_disconnected(server):
         # which opens the last port again
         if name != "recover":
             assert_forbidden(ask(server, name))
+    assert_forbidden(server.post(COMMAND, json={"command": "emergency_stop"}))
     assert server.post(COMMAND, json={"command": "refresh"}).status_code == 204
 
 

@@ -27,7 +27,7 @@ CHECKS = [
     response_schema_conformance,
 ]
 
-DISRUPTIVE = ("recover", "fix_settings", "restore_settings", "fix_profile")
+DISRUPTIVE = ("emergency_stop", "recover", "fix_settings", "restore_settings", "fix_profile")
 """Commands that would take the printer away from the others, or write settings each time."""
 
 PATH = Path(octoprint_rrfmodel.__file__).with_name("openapi.json")

@@ -12,6 +12,8 @@ from .page import open_view as open_machine
 pytestmark = pytest.mark.timeout(240)
 
 
+MARKUP = "<img src=x onerror=alert(1)>"
+
 BOARD = {"machine": "corexy", "speed": 20}
 
 
@@ -177,6 +179,35 @@ def test_board_of_another_version(view, board):
     boards.pop()
     board.board.bump("boards")
     expect(part(view, "board")).to_have_count(len(boards), timeout=20_000)
+
+
+def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):
+    with board.board.lock:
+        data = board.board.data
+        data["move"]["shaping"].update(type="zvd", frequency=42.5)
+        data["move"]["extruders"][0]["pressureAdvance"] = 0.04
+        data["sensors"]["gpIn"] = [None, {"value": 1}]
+        data["state"]["gpOut"] = [{"freq": 500, "pwm": 0.4}]
+        data["sensors"]["analog"][0].update(name=MARKUP, lastReading=31.5)
+        for key in ("move", "sensors", "state"):
+            board.board.bump(key)
+    wait_text(part(view, "motion-shaping"), "zvd 42.5 Hz")
+    wait_text(part(view, "motion-pressure"), "0.040 s")
+    wait_text(part(view, "motion-workplace"), "G54")
+    wait_text(part(view, "motion-running"), "0:")
+    expect(part(view, "input")).to_have_text(["Input 11"])
+    expect(part(view, "output")).to_have_text(["Output 040 %"])
+    wait_text(part(view, "sensor").first, MARKUP)
+    board.board.execute("G59.2", channel="http")
+    wait_text(part(view, "motion-workplace"), "G59.2")
+    board.board.execute("G54", channel="http")
+    # a move has a speed while it lasts
+    board.board.execute("G28", channel="http")
+    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    board.board.execute("G1 X10 F6000", channel="http")
+    board.board.execute("G1 X200 F300", channel="http")
+    wait_text(part(view, "motion-requested"), "5.0 mm/s")
+    assert own_errors(page_errors) == []
 
 
 def test_who_may_only_read_can_only_look(page, server):

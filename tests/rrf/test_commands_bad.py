@@ -14,6 +14,7 @@ TABLE = [
     ("nothing", {}, "cartesian", {}, "unknown_command"),
     ("power", {"on": True, "off": False}, "cartesian", {}, "unknown_parameter"),
     ("recover", {"now": True}, "cartesian", {}, "unknown_parameter"),
+    ("emergency_stop", {"now": True}, "cartesian", {}, "unknown_parameter"),
     ("power", {}, "cartesian", {}, "missing_parameter"),
     ("power", {"on": None}, "cartesian", {}, "missing_parameter"),
     ("power", {"on": 1}, "cartesian", {}, "not_a_truth_value"),

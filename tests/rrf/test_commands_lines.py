@@ -33,6 +33,8 @@ TABLE = [
     ("refresh", {}, "cartesian", VERSIONS, {}, []),
     ("refresh", {"key": "move.axes[0].homed"}, "cartesian", VERSIONS, {}, []),
     ("recover", {}, "cartesian", VERSIONS, {}, []),
+    ("emergency_stop", {}, "cartesian", VERSIONS, {}, ["M112"]),
+    ("emergency_stop", {}, "cartesian", VERSIONS, PRINTING, ["M112"]),
     ("tool_temperatures", {"tool": 0, "active": 205}, "cartesian", OLD, {}, ["G10 P0 S205"]),
     ("tool_temperatures", {"tool": 0, "active": 205}, "cartesian", FROM_33, {}, ["M568 P0 S205"]),
     (

@@ -26,9 +26,11 @@ def _has_a_print(request: Request) -> bool:
     return situation.octoprint_prints or _prints(request) or request.machine.status == "paused"
 
 
+NOT_CONNECTED = State("not_connected", lambda request: not request.situation.is_connected)
+NOT_RRF = State("not_rrf", lambda request: not request.situation.is_rrf)
 WITHOUT_MACHINE = (
-    State("not_connected", lambda request: not request.situation.is_connected),
-    State("not_rrf", lambda request: not request.situation.is_rrf),
+    NOT_CONNECTED,
+    NOT_RRF,
     State("halted", lambda request: request.machine.is_halted),
     State("no_model", lambda request: not request.machine.model),
 )

@@ -41,6 +41,11 @@ def recover(request: Request) -> Sequence[str]:
     return []
 
 
+def emergency_stop(request: Request) -> Sequence[str]:
+    """M112."""
+    return ["M112"]
+
+
 def power(request: Request) -> Sequence[str]:
     """M80 and M81."""
     machine, is_on = request.machine, request.values["on"]

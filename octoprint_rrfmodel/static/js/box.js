@@ -114,28 +114,18 @@ $(function () {
 
         self.limitText = ko.pureComputed(function () {
             if (!self.wantsValue()) return "";
-            const values = {min: self.min(), max: self.max()};
-            const hasMin = values.min !== null;
-            const hasMax = values.max !== null;
-            const isText = self.mode() === TEXT;
-            if (hasMin && hasMax)
-                return _.sprintf(
-                    isText
-                        ? gettext("From %(min)s to %(max)s characters")
-                        : gettext("From %(min)s to %(max)s"),
-                    values
-                );
-            if (hasMin)
-                return _.sprintf(
-                    isText ? gettext("At least %(min)s characters") : gettext("At least %(min)s"),
-                    values
-                );
-            if (hasMax)
-                return _.sprintf(
-                    isText ? gettext("At most %(max)s characters") : gettext("At most %(max)s"),
-                    values
-                );
-            return "";
+            const [min, max] = [self.min(), self.max()];
+            const [ofText, ofNumber] =
+                min === null
+                    ? [gettext("At most %(max)s characters"), gettext("At most %(max)s")]
+                    : max === null
+                      ? [gettext("At least %(min)s characters"), gettext("At least %(min)s")]
+                      : [
+                            gettext("From %(min)s to %(max)s characters"),
+                            gettext("From %(min)s to %(max)s")
+                        ];
+            if (min === null && max === null) return "";
+            return _.sprintf(self.mode() === TEXT ? ofText : ofNumber, {min: min, max: max});
         });
 
         const fits = (size) =>

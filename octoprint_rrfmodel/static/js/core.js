@@ -241,6 +241,20 @@ $(function () {
             return OctoPrint.plugins.rrfmodel.command(name, values).fail(self.tellRefusal);
         };
 
+        /** Asks before something that can't be taken back. */
+        self.confirm = (title, message, proceed, onproceed) =>
+            showConfirmationDialog({title, message, proceed, cancel: gettext("Back"), onproceed});
+
+        self.emergencyStop = () =>
+            self.confirm(
+                gettext("Stop the machine at once?"),
+                gettext(
+                    "Its print is lost. By USB it stops when what it is busy with is through: in an emergency take its power."
+                ),
+                gettext("Emergency stop"),
+                () => self.command("emergency_stop")
+            );
+
         self.tellRefusal = function (xhr) {
             self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));
         };

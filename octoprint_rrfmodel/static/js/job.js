@@ -8,9 +8,7 @@ $(function () {
     const RETRY_MS = 30000;
     const MOST_ATTEMPTS = 5;
 
-    const {list} = RRFModel;
-    const isNumber = (value) => typeof value === "number";
-
+    const {list, isNumber} = RRFModel;
     function RrfModelJobViewModel(parameters) {
         const self = this;
         const core = parameters[0];
@@ -131,15 +129,9 @@ $(function () {
         /** Asks first, and does it only if it is still the same file by then. */
         const asked = function (title, message, proceed, onproceed) {
             const path = self.path();
-            showConfirmationDialog({
-                title: title,
-                message: message,
-                proceed: proceed,
-                cancel: gettext("Back"),
-                onproceed: function () {
-                    if (path === nowPrinted()) onproceed();
-                    else core.notify(gettext("Nothing was done: it is another print by now."));
-                }
+            core.confirm(title, message, proceed, function () {
+                if (path === nowPrinted()) onproceed();
+                else core.notify(gettext("Nothing was done: it is another print by now."));
             });
         };
         // the page's own view stands still while it is hidden

@@ -2,7 +2,7 @@
 $(function () {
     const JOG_STEPS = [0.05, 0.1, 1, 10, 50];
     const BABYSTEPS = [-0.1, -0.05, -0.02, 0.02, 0.05, 0.1];
-    const {list, numbered} = RRFModel;
+    const {list, numbered, isNumber} = RRFModel;
 
     /** Whether temperatures rule a fan; its sensors were heaters before 3.4. */
     const isThermostatic = (thermostatic) =>
@@ -97,7 +97,7 @@ $(function () {
             core.command("babystep", {axis: "Z", amount: 0, absolute: true});
 
         const percentOf = (fraction) =>
-            typeof fraction === "number" ? Math.round(fraction * 100) : null;
+            isNumber(fraction) ? Math.round(fraction * 100) : null;
 
         self.speedFactor = ko.pureComputed(() => percentOf(move().speedFactor));
         self.setSpeedFactor = (percent) => core.command("speed_factor", {percent: percent});
@@ -106,10 +106,7 @@ $(function () {
                 numbered(move().extruders).map((found) => ({
                     key: found.index,
                     name: _.sprintf(gettext("Extruder %(number)s"), {number: found.index}),
-                    percent: percentOf(found.item.factor),
-                    position: show.fixed(found.item.position, 1),
-                    filament: found.item.filament || "",
-                    pressure: found.item.pressureAdvance
+                    percent: percentOf(found.item.factor)
                 })),
             function (row) {
                 row.set = (percent) =>

@@ -1,7 +1,7 @@
 /* Tools, beds and chambers of the sub-view Machine: their heaters, states, offsets and faults. */
 $(function () {
     const NO_TOOL = -1;
-    const {list, numbered} = RRFModel;
+    const {list, numbered, isNumber} = RRFModel;
 
     /** Returns the members of a view model over the model of its view. */
     RRFModel.heatRows = function (core, model) {
@@ -33,7 +33,7 @@ $(function () {
             };
         };
 
-        const target = (value) => (typeof value === "number" && value > -273 ? value : null);
+        const target = (value) => (isNumber(value) && value > -273 ? value : null);
 
         /** One field for each heater of a tool; the others keep what they have. */
         const heaterFields = function (row, member, text) {
@@ -74,7 +74,7 @@ $(function () {
                             letter: (axis || {}).letter,
                             offset: list(tool.offsets)[place]
                         }))
-                        .filter((axis) => axis.letter && typeof axis.offset === "number");
+                        .filter((axis) => axis.letter && isNumber(axis.offset));
                     const count = list(tool.heaters).length;
                     const fed = extruders[list(tool.extruders)[0]] || {};
                     return Object.assign(shownHeater(list(tool.heaters)), {
@@ -166,7 +166,7 @@ $(function () {
                     const [known] = active.values();
                     const needsTarget = state === "active" && row.command() === "chamber";
                     send(
-                        needsTarget && typeof known === "number"
+                        needsTarget && isNumber(known)
                             ? {active: known, state: state}
                             : {state: state}
                     );

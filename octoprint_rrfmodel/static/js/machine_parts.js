@@ -4,8 +4,7 @@ $(function () {
     const FILAMENTS = "0:/filaments";
     const NEW_MS = 500;
 
-    const {list, numbered} = RRFModel;
-    const object = (value) => (value && typeof value === "object" ? value : {});
+    const {list, numbered, object, isNumber} = RRFModel;
 
     /** A folder of the card that is listed when it is asked for, and opens into those below. */
     function Folder(core, root) {
@@ -148,10 +147,12 @@ $(function () {
                         wanted(isNew ? isReverse : null);
                     }
                 });
-                row.turnsBack.subscribe(function (turnsBack) {
-                    if (!isSent && turnsBack !== wanted()) return;
+                const asItTurns = function () {
                     isSent = false;
                     wanted(null);
+                };
+                row.turnsBack.subscribe(function (turnsBack) {
+                    if (isSent || turnsBack === wanted()) asItTurns();
                 });
                 row.set = function (rpm) {
                     isSent = wanted() !== null;
@@ -161,7 +162,10 @@ $(function () {
                         direction: row.isReverse() ? "reverse" : "forward"
                     });
                 };
-                row.stop = () => core.command("spindle", {spindle: row.key, rpm: 0});
+                row.stop = function () {
+                    asItTurns();
+                    core.command("spindle", {spindle: row.key, rpm: 0});
+                };
             }
         );
         self.laser = ko.pureComputed(() =>
@@ -173,13 +177,12 @@ $(function () {
         self.powerText = ko.pureComputed(() => (self.isOn() ? gettext("on") : gettext("off")));
         self.switchOn = () => core.command("power", {on: true});
         self.switchOff = () =>
-            showConfirmationDialog({
-                message: gettext("Heaters and motors lose their power."),
-                question: gettext("Switch the power off?"),
-                proceed: gettext("Switch off"),
-                cancel: gettext("Cancel"),
-                onproceed: () => core.command("power", {on: false})
-            });
+            core.confirm(
+                gettext("Switch the power off?"),
+                gettext("Heaters and motors lose their power."),
+                gettext("Switch off"),
+                () => core.command("power", {on: false})
+            );
 
         //~~ mesh, kinematics, calibration
 
@@ -208,7 +211,7 @@ $(function () {
         self.calibration = ko.pureComputed(function () {
             const found = object(move().calibration);
             const final = object(found.final);
-            return found.numFactors && typeof final.deviation === "number"
+            return found.numFactors && isNumber(final.deviation)
                 ? _.sprintf(gettext("%(factors)s factors, deviation %(deviation)s mm"), {
                       factors: found.numFactors,
                       deviation: show.fixed(final.deviation, 3)
@@ -216,58 +219,7 @@ $(function () {
                 : "";
         });
 
-        //~~ boards, network, volumes
-
-        /** Without what follows it of one build or another. */
-        const versionOf = (board) => String(object(board).firmwareVersion || "").split(/[+ ]/)[0];
-        const volts = (value) => (typeof value === "number" ? value.toFixed(1) + " V" : "");
-        self.boards = RRFModel.rows(() =>
-            numbered(model("boards")).map(function (found) {
-                const board = found.item;
-                const main = list(model("boards"))[0];
-                const temperature = object(board.mcuTemp).current;
-                return {
-                    key: found.index,
-                    name: board.name || board.shortName || String(found.index),
-                    version: board.firmwareVersion || "",
-                    differs: !!board.firmwareVersion && versionOf(board) !== versionOf(main),
-                    supply: volts(object(board.vIn).current),
-                    twelve: volts(object(board.v12).current),
-                    temperature:
-                        typeof temperature === "number" ? temperature.toFixed(1) + " °C" : ""
-                };
-            })
-        );
-
-        self.interfaces = RRFModel.rows(() =>
-            numbered(object(model("network")).interfaces).map((found) => ({
-                key: found.index,
-                type: found.item.type || "",
-                address: found.item.actualIP || "",
-                state: found.item.state || "",
-                // an address and nothing else: it goes into a link
-                link: /^\d{1,3}(\.\d{1,3}){3}$/.test(found.item.actualIP || "") &&
-                    found.item.actualIP !== "0.0.0.0"
-                        ? "http://" + found.item.actualIP + "/"
-                        : ""
-            }))
-        );
-        self.machineName = ko.pureComputed(() => object(model("network")).name || "");
-
-        const gigabytes = (bytes) =>
-            typeof bytes === "number" ? (bytes / 1e9).toFixed(1) + " GB" : "–";
-        self.volumes = RRFModel.rows(() =>
-            numbered(model("volumes")).map((found) => ({
-                key: found.index,
-                name: found.item.name || found.item.path || String(found.index),
-                text: found.item.mounted
-                    ? _.sprintf(gettext("%(free)s of %(size)s free"), {
-                          free: gigabytes(found.item.freeSpace),
-                          size: gigabytes(found.item.capacity)
-                      })
-                    : gettext("not mounted")
-            }))
-        );
+        Object.assign(self, RRFModel.machineFacts(core, model));
 
         //~~ macros, filaments
 

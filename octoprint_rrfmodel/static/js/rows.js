@@ -6,6 +6,7 @@ $(function () {
     const LOST_MS = 30000;
 
     RRFModel.list = (value) => (Array.isArray(value) ? value : []);
+    RRFModel.object = (value) => (value && typeof value === "object" ? value : {});
 
     /** Elements of an array of the model with their indices, gaps left out. */
     RRFModel.numbered = (value) =>

@@ -1,5 +1,7 @@
 /* Words in the page's language and values as people read them. */
 $(function () {
+    const isNumber = (RRFModel.isNumber = (value) => typeof value === "number");
+
     /** Words in the page's language; OctoPrint defines gettext after this file has run. */
     RRFModel.makeWords = () => ({
         /** Sub-views of the tab. */
@@ -145,8 +147,6 @@ $(function () {
             fix_profile: gettext("Raise the number of extruders")
         }
     });
-
-    const isNumber = (value) => typeof value === "number";
 
     /** Values as people read them; what is not known is a dash. */
     RRFModel.show = {
