@@ -19,7 +19,9 @@ $(function () {
             isNumber(number) ? "G" + (number < 6 ? number + 54 : "59." + (number - 5)) : "";
 
         const shaping = (found) =>
-            found.type ? [found.type, withUnit(found.frequency, "Hz")].join(" ").trim() : "";
+            found.type && found.type !== "none"
+                ? found.type + " " + withUnit(found.frequency, "Hz")
+                : found.type;
 
         /** By model since 3.7, one number before. */
         const pressure = (extruder) =>
@@ -80,21 +82,18 @@ $(function () {
 
         /** Without what follows it of one build or another. */
         const versionOf = (board) => String(object(board).firmwareVersion || "").split(/[+ ]/)[0];
-        const volts = (value) => (isNumber(value) ? value.toFixed(1) + " V" : "");
         self.boards = RRFModel.rows(() =>
             numbered(model("boards")).map(function (found) {
                 const board = found.item;
                 const main = list(model("boards"))[0];
-                const temperature = object(board.mcuTemp).current;
                 return {
                     key: found.index,
                     name: board.name || board.shortName || String(found.index),
                     version: board.firmwareVersion || "",
                     differs: !!board.firmwareVersion && versionOf(board) !== versionOf(main),
-                    supply: volts(object(board.vIn).current),
-                    twelve: volts(object(board.v12).current),
-                    temperature:
-                        isNumber(temperature) ? temperature.toFixed(1) + " °C" : ""
+                    supply: withUnit(object(board.vIn).current, "V"),
+                    twelve: withUnit(object(board.v12).current, "V"),
+                    temperature: withUnit(object(board.mcuTemp).current, "°C")
                 };
             })
         );
@@ -114,8 +113,7 @@ $(function () {
         );
         self.machineName = ko.pureComputed(() => object(model("network")).name || "");
 
-        const gigabytes = (bytes) =>
-            isNumber(bytes) ? (bytes / 1e9).toFixed(1) + " GB" : "–";
+        const gigabytes = (bytes) => (isNumber(bytes) ? withUnit(bytes / 1e9, "GB") : "–");
         self.volumes = RRFModel.rows(() =>
             numbered(model("volumes")).map((found) => ({
                 key: found.index,
