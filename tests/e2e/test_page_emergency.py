@@ -18,7 +18,22 @@ STREAMED = "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 1000
 def test_a_reader_can_not_stop_the_machine(page, server, board):
     open_view(page, server, READER, "machine")
     expect(part(page, "emergency-stop")).to_be_disabled()
+    expect(part(page, "restart")).to_be_disabled()
     assert not board.board.is_halted
+
+
+def test_restarts_the_machine(page, server, board):
+    open_view(page, server, ADMIN, "machine")
+    resets = helpers.status(server)["resets"]
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    part(page, "restart").click()
+    page.locator(".modal.in .modal-footer .btn-danger").click()
+    server.wait_for(lambda: "is connected again" in server.log(), 120, "the end of the restart")
+    helpers.wait_ready(server, 90)
+    # it is another start of the board
+    assert not any(helpers.value(server, "move.axes[].homed"))
+    assert helpers.status(server)["resets"] >= resets
 
 
 def test_stops_what_is_printed_and_comes_back(page, server, board):

@@ -254,6 +254,13 @@ $(function () {
                 gettext("Emergency stop"),
                 () => self.command("emergency_stop")
             );
+        self.restart = () =>
+            self.confirm(
+                gettext("Restart the machine?"),
+                gettext("It forgets where its axes are, and is connected again."),
+                gettext("Restart"),
+                () => self.command("recover")
+            );
 
         self.tellRefusal = function (xhr) {
             self.notify((xhr.responseJSON || {}).error || gettext("That did not work."));

@@ -165,11 +165,7 @@ $(function () {
                 row.setState = (state) => function () {
                     const [known] = active.values();
                     const needsTarget = state === "active" && row.command() === "chamber";
-                    send(
-                        needsTarget && isNumber(known)
-                            ? {active: known, state: state}
-                            : {state: state}
-                    );
+                    send({state: state, active: needsTarget && isNumber(known) ? known : null});
                 };
                 row.activeLabel = named(row, gettext("Active temperature of %(name)s"));
                 row.standbyLabel = named(row, gettext("Standby temperature of %(name)s"));
