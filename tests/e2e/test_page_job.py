@@ -198,6 +198,18 @@ def test_last_job_is_started_again_and_simulated(page, server, idle):
     server.wait_for(lambda: idle.board.job.is_simulation, 20, "the simulation")
 
 
+def test_nothing_is_started_without_the_motors_supply(page, server, idle):
+    idle.board.execute('M23 "parts/clip.gcode"', channel="http")
+    view = open_view(page, server, ADMIN, "job")
+    expect(part(view, "start")).to_be_visible()
+    idle.board.inject("vin_off")
+    try:
+        expect(part(view, "start")).to_be_hidden(timeout=20_000)
+    finally:
+        idle.board.clear("vin_off")
+    expect(part(view, "start")).to_be_visible(timeout=20_000)
+
+
 def test_selected_file_is_started(page, server, idle):
     idle.board.execute('M23 "parts/clip.gcode"', channel="http")
     view = open_view(page, server, ADMIN, "job")
