@@ -76,17 +76,17 @@ def test_pushed_values_are_newer_than_the_model_that_comes_late(
     assert own_errors(page_errors) == []
 
 
-def test_a_late_state_does_not_take_the_machine_away(page_of, server, board, page_errors):
+def test_a_late_state_does_not_take_the_machine_away(page, server, board, page_errors):
     helpers.disconnect(server)
-    held = Held(page_of, "**/plugin/rrfmodel/status", server)
-    reload(page_of)
+    held = Held(page, "**/plugin/rrfmodel/status", server)
+    open_octoprint(page, server, ADMIN)
     held.wait()
     helpers.connect(server, board)
-    expect(part(page_of, "axis")).to_have_count(3)
+    expect(part(page, "axis")).to_have_count(3)
     held.release()
     helpers.wait_polls(server, 3)
-    expect(part(page_of, "axis")).to_have_count(3)
-    expect(part(page_of, "status").first).to_have_text("Idle")
+    expect(part(page, "axis")).to_have_count(3)
+    expect(part(page, "status").first).to_have_text("Idle")
     assert own_errors(page_errors) == []
 
 

@@ -151,7 +151,7 @@ $(function () {
         /** Keys that were pushed since the whole model was asked for, null where it isn't. */
         let asked = null;
         let askingAgain;
-        /** The server's time of the latest state; OctoPrint hands over old messages at a log-in. */
+        /** The server's time of the latest state: at a log-in old messages come. */
         let toldAt = -Infinity;
         /** Whether a notice may be one of those, as no state is known yet. */
         let mayBeOld = true;
@@ -165,7 +165,8 @@ $(function () {
                 // one that comes late says less than what was pushed since
                 if (answer.at >= toldAt) self.fromStatus(answer);
                 const status = self.status();
-                if (status.is_rrf && status.revision) requestModel();
+                // before the first age all of it is still to be pushed
+                if (status.is_rrf && status.age !== null) requestModel();
                 else replace({});
             });
         };
@@ -197,7 +198,7 @@ $(function () {
         };
 
         self.onStartupComplete = self.requestData;
-        // only the first attempt to connect again succeeds without its being called a reconnect
+        // where the first attempt succeeds OctoPrint calls it no reconnect
         self.onServerConnect = self.onServerReconnect = function () {
             toldAt = -Infinity;
             self.requestData();
