@@ -125,7 +125,7 @@ def test_what_a_line_says(broker, topic, payload, said):
         printer.model = {"state": {"status": "idle"}}
     printer.publish()
     printer.connection.mqtt_publish(f"shop/one/{topic}", payload, retained=True)
-    wait_for(lambda: lines(broker) == [["one", *said]], 10, f"the line to say {said}")
+    assert wait_for(lambda: lines(broker) == [["one", *said]], 10, f"the line to say {said}")
     printer.connection.close()
 
 

@@ -178,4 +178,5 @@ def test_live_value_by_m408(server, board_factory):
     for target in (44, 66):
         helpers.wait_polls(server, 1)
         board.board.execute(f"M140 S{target}")
-        helpers.wait_value(server, "heat.heaters[0].active", target, helpers.LIVE_SECONDS)
+        key = "heat.heaters[0].active"
+        assert helpers.wait_value(server, key, target, helpers.LIVE_SECONDS) == target

@@ -59,6 +59,7 @@ def test_answers_as_described(case, server):
     body = case.body if isinstance(case.body, dict) else {}
     hypothesis.assume(body.get("command") not in DISRUPTIVE)
     response = case.call(headers={"X-Api-Key": ADMIN.api_key}, timeout=30)
+    assert response.status_code < 500
     case.validate_response(response, checks=CHECKS)
 
 

@@ -62,6 +62,6 @@ def test_a_setting_shows_them(server):
     try:
         with PushListener(server, ADMIN) as push:
             helpers.wait_polls(server, 3)
-            server.wait_for(lambda: has_shown(push, '{"key"'), 10, "the polls to be shown")
+            assert server.wait_for(lambda: has_shown(push, '{"key"'), 10, "the polls to be shown")
     finally:
         server.set_setting("plugins.rrfmodel.hide_polls", True)

@@ -628,12 +628,12 @@ def broken(value):
 @given(broken(SMALL), broken(STATUS))
 @example({}, {})
 def test_no_model_and_no_state_is_too_strange(model, status):
-    check(model, status)
+    assert check(model, status)
 
 
 @given(st.dictionaries(TOP, ANY_JSON))
 def test_no_value_is_too_strange(model):
-    check(model)
+    assert check(model)
 
 
 ##~~ the reference
