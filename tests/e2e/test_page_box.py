@@ -116,6 +116,32 @@ def test_answer_locks_until_there_is_news(page, box, server, board):
     assert board_value(board, "state.messageBox.message") == "Second"
 
 
+def test_the_reply_about_one_box_does_not_unlock_the_next(page, server, board):
+    page.clock.install()
+    open_octoprint(page, server, ADMIN)
+    box = page.locator("#rrfmodel_box_dialog")
+    ask(board, 'P"First" S3')
+    ask(board, 'P"Second" S3', "aux")
+    wait_text(part(box, "box-message"), "First")
+    held = []
+    page.route("**/api/plugin/rrfmodel", lambda route: held.append(route))
+    part(box, "box-ok").click()
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the answer")
+    first = held[0]
+    reply = first.fetch()
+    wait_text(part(box, "box-message"), "Second")
+    # the next one is answered, then the reply about the first comes
+    part(box, "box-ok").click()
+    server.wait_for(lambda: page.wait_for_timeout(20) or held[1:], 15, "the second answer")
+    with page.expect_response("**/api/plugin/rrfmodel"):
+        first.fulfill(response=reply)
+    # the page knows of it, and of the time after which it would unlock
+    helpers.wait_polls(server, 2)
+    page.clock.fast_forward(6_000)
+    expect(part(box, "box-ok")).to_be_disabled()
+    assert len(held) == 2
+
+
 def test_put_aside_and_shown_again(page, box, server, board):
     ask(board, f'P"Look at it" R"{MARKUP}" S2')
     wait_text(part(box, "box-message"), "Look at it")
