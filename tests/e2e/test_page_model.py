@@ -18,7 +18,8 @@ BOARD = {"machine": "toolchanger", "speed": 10}
 @pytest.fixture
 def view(page, server):
     found = open_view(page, server, ADMIN, "model")
-    row(found, "state").wait_for()
+    # comes with the whole model alone, others may be pushed before
+    row(found, "volumes").wait_for()
     return found
 
 
