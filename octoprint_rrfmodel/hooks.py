@@ -1,7 +1,7 @@
 """Which part of the plugin answers which of OctoPrint's hooks."""
 
-from .events import custom_events
-from .permissions import permissions
+from .host.permissions import permissions
+from .integrations.octoprint_events import custom_events
 
 
 def hooks_of(plugin):

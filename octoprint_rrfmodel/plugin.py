@@ -5,15 +5,15 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 from octoprint.events import eventManager
 
-from .assets import ASSETS
-from .endpoints import Endpoints
-from .folders import FolderHandler, Folders
-from .host import Host
-from .live import LiveModelHandler
-from .parts import Parts
-from .protection import DISABLED_PLUGIN
-from .settings import DEFAULTS, VERSION
-from .thumbnails import ThumbnailHandler
+from .assembly import Parts
+from .guard.protection import DISABLED_PLUGIN
+from .host.host import Host
+from .host.plugin_settings import DEFAULTS, VERSION
+from .web.assets import ASSETS
+from .web.endpoints import Endpoints
+from .web.files_api import FolderHandler, Folders
+from .web.live_api import LiveModelHandler
+from .web.thumbnail_api import ThumbnailHandler
 
 
 class RrfModelPlugin(

@@ -14,8 +14,7 @@ import pytest
 from tests.support import broker as mqtt
 from tests.support import browser as chromium
 from tests.support import waiting
-
-ROOT = Path(__file__).resolve().parent.parent
+from tests.support.places import ROOT
 
 # a busy machine makes single examples slow, and a failure has to be the same one when run again
 hypothesis.settings.register_profile("bench", deadline=None, print_blob=True)

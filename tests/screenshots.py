@@ -8,13 +8,14 @@ from playwright.sync_api import sync_playwright
 
 from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.pty import PtyBoard
+from tests.support.places import ROOT
 
 from .e2e import helpers
 from .support import browser as chromium
 from .support.basedir import ADMIN
 from .support.server import OctoPrintServer
 
-FOLDER = Path(__file__).resolve().parent.parent / "extras" / "screenshots"
+FOLDER = ROOT / "extras" / "screenshots"
 
 VIEWS = ("machine", "job", "chart", "model")
 

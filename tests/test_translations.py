@@ -3,16 +3,16 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+
+from tests.support.places import ROOT
 
 pofile = pytest.importorskip("babel.messages.pofile")
 mofile = pytest.importorskip("babel.messages.mofile")
 # the templates have a tag of OctoPrint's own
 pytest.importorskip("octoprint")
 
-ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "translations"
 COMPILED = ROOT / "octoprint_rrfmodel" / "translations"
 LANGUAGES = ("de", "es", "fr")

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from octoprint_rrfmodel.rrf.m409 import answer
-from octoprint_rrfmodel.rrf.marks import MARKS
+from octoprint_rrfmodel.rrf.model.marks import MARKS
 
 from .decimals import decimals_of
 from .firmware import Firmware

@@ -6,10 +6,10 @@ import itertools
 import statistics
 from typing import Any
 
-from octoprint_rrfmodel.comm import CommBridge
-from octoprint_rrfmodel.rrf.card import CardPlan
-from octoprint_rrfmodel.sdcard import SdCard
-from octoprint_rrfmodel.sdjob import SdJob
+from octoprint_rrfmodel.link.serial.comm import CommBridge
+from octoprint_rrfmodel.link.serial.sdcard import SdCard
+from octoprint_rrfmodel.link.serial.sdjob import SdJob
+from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from tests.bench.timing import side_by_side, verdict
 
 CALLS = 2000

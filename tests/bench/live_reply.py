@@ -8,10 +8,10 @@ import random
 import statistics
 from typing import Any
 
-from octoprint_rrfmodel.rrf.line import find_reply
-from octoprint_rrfmodel.rrf.live import LiveReader
-from octoprint_rrfmodel.rrf.merge import patched
-from octoprint_rrfmodel.rrf.reply import decode
+from octoprint_rrfmodel.rrf.model.merge import patched
+from octoprint_rrfmodel.rrf.wire.line import find_reply
+from octoprint_rrfmodel.rrf.wire.live_reader import LiveReader
+from octoprint_rrfmodel.rrf.wire.reply import decode
 from octoprint_rrfmodel.simulator.board import Board
 from tests.bench.timing import median_ratio, side_by_side, verdict
 

@@ -4,7 +4,7 @@ import json
 import re
 import time
 
-from octoprint_rrfmodel.rrf.m409 import MARKS
+from octoprint_rrfmodel.rrf.model.m409 import MARKS
 
 READY_SECONDS = 15
 LIVE_SECONDS = 3

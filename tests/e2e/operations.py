@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from octoprint_rrfmodel.rrf.request import LIVE_FLAGS, ModelRequest
+from octoprint_rrfmodel.rrf.wire.request import LIVE_FLAGS, ModelRequest
 
 from . import helpers
 

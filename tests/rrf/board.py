@@ -3,11 +3,11 @@
 import copy
 import re
 
-from octoprint_rrfmodel.rrf.follower import Follower
-from octoprint_rrfmodel.rrf.line import NO_BUFFERS, find_reply
-from octoprint_rrfmodel.rrf.m409 import AXES_SHOWN, answer
-from octoprint_rrfmodel.rrf.reply import MalformedReply
-from octoprint_rrfmodel.rrf.request import ModelRequest
+from octoprint_rrfmodel.rrf.follow.follower import Follower
+from octoprint_rrfmodel.rrf.model.m409 import AXES_SHOWN, answer
+from octoprint_rrfmodel.rrf.wire.line import NO_BUFFERS, find_reply
+from octoprint_rrfmodel.rrf.wire.reply import MalformedReply
+from octoprint_rrfmodel.rrf.wire.request import ModelRequest
 
 from .strategies import compact
 

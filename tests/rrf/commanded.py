@@ -4,8 +4,8 @@ import copy
 import functools
 import re
 
-from octoprint_rrfmodel.rrf.commands import Refusal, Situation, translate
-from octoprint_rrfmodel.rrf.machine import Machine
+from octoprint_rrfmodel.rrf.gcode.commands import Refusal, Situation, translate
+from octoprint_rrfmodel.rrf.views.machine import Machine
 
 from .simulated import Simulated
 

@@ -1,8 +1,8 @@
 """The model that a simulated board tells, as a follower has it: each version's own members."""
 
-from octoprint_rrfmodel.rrf.follower import Follower
-from octoprint_rrfmodel.rrf.line import find_reply
-from octoprint_rrfmodel.rrf.machine import Machine
+from octoprint_rrfmodel.rrf.follow.follower import Follower
+from octoprint_rrfmodel.rrf.views.machine import Machine
+from octoprint_rrfmodel.rrf.wire.line import find_reply
 from octoprint_rrfmodel.simulator.board import Board
 
 MOST_REQUESTS = 200

@@ -4,21 +4,21 @@ import json
 
 import pytest
 
-from octoprint_rrfmodel.rrf.follower import Follower
-from octoprint_rrfmodel.rrf.line import find_reply
-from octoprint_rrfmodel.rrf.m408 import M408Model
-from octoprint_rrfmodel.rrf.m409 import AXES_SHOWN
-from octoprint_rrfmodel.rrf.merge import patched, paths, replaced
-from octoprint_rrfmodel.rrf.poll408 import StatusPlan
-from octoprint_rrfmodel.rrf.reply import (
+from octoprint_rrfmodel.rrf.follow.follower import Follower
+from octoprint_rrfmodel.rrf.follow.poll408 import StatusPlan
+from octoprint_rrfmodel.rrf.model.m409 import AXES_SHOWN
+from octoprint_rrfmodel.rrf.model.merge import patched, paths, replaced
+from octoprint_rrfmodel.rrf.model.store import ModelStore
+from octoprint_rrfmodel.rrf.views.temperatures import temperatures
+from octoprint_rrfmodel.rrf.wire.line import find_reply
+from octoprint_rrfmodel.rrf.wire.m408 import M408Model
+from octoprint_rrfmodel.rrf.wire.reply import (
     MalformedReply,
     ModelReply,
     StatusReply,
     decode,
     decode_page,
 )
-from octoprint_rrfmodel.rrf.store import ModelStore
-from octoprint_rrfmodel.rrf.temperatures import temperatures
 
 from .board import SEQS, Board, following, serve
 from .independent import differing, overlaid, same

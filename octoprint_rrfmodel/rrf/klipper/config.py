@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..gcode import number as shortly
-from ..machine import mapping
+from ..views.machine import mapping
+from ..wire.gcode_words import number as shortly
 from .host import startup_error
 from .motion import max_accel, max_velocity
 from .values import text

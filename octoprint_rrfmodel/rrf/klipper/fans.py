@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..machine import array, mapping
+from ..views.machine import array, mapping
 from .kept import sensor_reading
 from .printer import Model, Printer
 from .values import element, first, fraction, named, number, text, whole

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..machine import array, mapping
-from ..temperatures import ABSOLUTE_ZERO
+from ..views.machine import array, mapping
+from ..views.temperatures import ABSOLUTE_ZERO
 from .fans import thermostatic_fans
 from .kept import sensor_reading
 from .printer import Extruder, Model, Printer

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..machine import mapping
+from ..views.machine import mapping
 from .values import number, text
 from .view import Row, View, each, one, where
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..machine import array, mapping
+from ..views.machine import array, mapping
 from .values import element, number, text, whole
 from .view import Row, View, one, where
 from .world import HOST, PRINTING

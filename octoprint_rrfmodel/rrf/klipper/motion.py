@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..machine import array, mapping
+from ..views.machine import array, mapping
 from .printer import LETTERS, Printer
 from .values import least, number, text, truth
 from .view import ABSENT, Row, View, one, where

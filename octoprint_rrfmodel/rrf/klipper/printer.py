@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from ..machine import Machine, array, mapping
+from ..views.machine import Machine, array, mapping
 from .values import element, first, named, number, text, whole
 
 Model = Mapping[str, Any]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..machine import array, mapping
+from ..views.machine import array, mapping
 from .printer import Model, Printer
 from .values import element, named, number, text, truth
 from .view import Row, View, each, one, where

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..machine import array, mapping
-from ..merge import DEEPEST
-from ..temperatures import ABSOLUTE_ZERO, BAD_READING
+from ..model.merge import DEEPEST
+from ..views.machine import array, mapping
+from ..views.temperatures import ABSOLUTE_ZERO, BAD_READING
 
 BEYOND_ANY = 2**63
 """Whole numbers from here on are in no model; a float could not hold them."""

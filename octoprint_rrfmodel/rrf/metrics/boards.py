@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..board_alerts import DRIVER_ERRORS, OPEN_LOAD, OVER_TEMPERATURE_WARNING
-from ..machine import array
-from ..words import BOARDS
+from ..views.board_warnings import DRIVER_ERRORS, OPEN_LOAD, OVER_TEMPERATURE_WARNING
+from ..views.machine import array
+from ..views.state_words import BOARDS
 from .metric import GAUGE, Metric, Model, Sample, Sources, at, each, indexed, infos, reading, states
 
 DRIVER_CONDITIONS = (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ..machine import array, mapping
-from ..temperatures import TARGET_OF_STATE
-from ..words import HEATERS
+from ..views.machine import array, mapping
+from ..views.state_words import HEATERS
+from ..views.temperatures import TARGET_OF_STATE
 from .metric import (
     GAUGE,
     Metric,

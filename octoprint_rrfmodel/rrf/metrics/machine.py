@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..alerts import FEEDING
-from ..machine import mapping
-from ..words import MONITORS, SPINDLES, STATUSES, TOOLS
+from ..views.machine import mapping
+from ..views.state_words import MONITORS, SPINDLES, STATUSES, TOOLS
+from ..views.warnings import FEEDING
 from .metric import (
     GAUGE,
     Metric,

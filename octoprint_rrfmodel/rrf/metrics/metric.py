@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Callable, NamedTuple
 
-from ..machine import array, mapping
-from ..temperatures import ABSOLUTE_ZERO, BAD_READING
-from ..words import UNKNOWN, known
+from ..views.machine import array, mapping
+from ..views.state_words import UNKNOWN, known
+from ..views.temperatures import ABSOLUTE_ZERO, BAD_READING
 
 GAUGE = "gauge"
 COUNTER = "counter"

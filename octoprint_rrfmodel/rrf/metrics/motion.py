@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ..job import WITHOUT_JOB, progress
-from ..machine import array, mapping
+from ..views.job import WITHOUT_JOB, progress
+from ..views.machine import array, mapping
 from .metric import GAUGE, Metric, Model, Sample, Samples, Sources, at, each, indexed, one, positive
 
 TIME_SOURCES = ("file", "filament", "slicer", "layer")

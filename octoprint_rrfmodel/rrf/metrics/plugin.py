@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ..machine import array, mapping
+from ..views.machine import array, mapping
 from .metric import COUNTER, GAUGE, Metric, Sample, Sources, at, own, text
 
 BLOCKED = ("heating", "long_command", "streaming", "buffers")

@@ -1,0 +1,1 @@
+"""Commands to the machine from a person or a program, checked and handed to the link."""

@@ -1,0 +1,1 @@
+"""What watches over a print, and what a person is warned of."""

@@ -1,0 +1,166 @@
+"""A print that OctoPrint streams, paused when the machine can't print: RRF leaves that to hosts."""
+
+from typing import NamedTuple
+
+import flask
+from flask_babel import gettext
+from octoprint.access.permissions import Permissions
+
+from ..host.warning_texts import waiting_text, warning_text
+from ..rrf.views.warnings import OFF, POSITION_LOST, RESET, faults, is_resumable, is_unhomed
+from ..rrf.wire.errors import guarded_alert
+from ..web.model_api import refusal
+
+JOB_ENDPOINT = "api.controlJob"
+"""OctoPrint's view of ``POST /api/job``."""
+
+
+class Pause(NamedTuple):
+    """Why the plugin has paused OctoPrint's print, and what a person can do about it."""
+
+    causes: tuple
+    """Alerts; those that hold now, or where none does any more those that were."""
+    message: str
+    """The text of a message box that the print came to, empty where it was none."""
+    what_next: str
+    """``wait`` until the causes are over, ``resume``, ``cancel``, ``answer`` the message."""
+
+
+class PrintGuard:
+    """Pauses OctoPrint's own print, once for each cause, and keeps it paused until that is over.
+
+    ``printer()`` is OctoPrint's printer. ``has_print()`` says whether it prints, or has paused,
+    one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on(code)`` says
+    whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``causes``,
+    ``pause``, ``refusal`` and ``handles`` may be called by any thread, all else by the worker.
+    """
+
+    def __init__(self, printer, has_print, model, is_on, tell):
+        self._printer = printer
+        self.has_print = has_print
+        self._model = model
+        self._is_on = is_on
+        self._tell = tell
+        self._was_reset = False
+        self._was_off = False
+        self._told = frozenset()
+        self._paused_for = None
+        # events come late: the next pause may be under way before the end of the last one is told
+        self._pausing_for = None
+
+    def causes(self):
+        """Return why the print may not go on, the worst first; nothing where there is none."""
+        if not self.has_print():
+            return []
+        found = [alert for alert in faults(self._model()) if self._is_on(alert.code)]
+        if self._was_off and is_unhomed(self._model()):
+            found.append(POSITION_LOST)
+        return [RESET, *found] if self._was_reset else found
+
+    def pause(self):
+        """Return why the print was paused by the plugin, ``None`` where it wasn't."""
+        paused_for = self._pausing_for or self._paused_for
+        if paused_for is None or not self.has_print():
+            return None
+        causes, message = paused_for
+        if message:
+            return Pause((), message, "answer")
+        now = self.causes()
+        if not now:
+            return Pause(causes, "", "resume")
+        may_go_on = all(is_resumable(cause) for cause in now)
+        return Pause(tuple(now), "", "wait" if may_go_on else "cancel")
+
+    def look(self):
+        """Pause if there is a reason to; tell each reason once."""
+        causes = self.causes()
+        self._was_off |= any(cause.code == OFF for cause in causes)
+        self._told &= frozenset(causes)
+        printer = self._printer()
+        # what has begun to end or to pause needs nothing; cancelling is what a person wants
+        if not causes or printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
+            return
+        # last: OctoPrint counts a pause that has only begun as printing, and may be through by now;
+        # 2.0 counts the pause itself as printing, too
+        if not printer.is_printing() or printer.is_paused():
+            return
+        self._pausing_for = (tuple(causes), "")
+        printer.pause_print()
+        new = [cause for cause in causes if cause not in self._told]
+        self._told = frozenset(causes)
+        if new:
+            self._tell("print_paused", _sentences(new))
+
+    def waits_for(self, message):
+        """Note that the print pauses at a message box that nobody could answer."""
+        self._pausing_for = ((), message)
+        self._tell("print_paused", waiting_text(message))
+
+    def board_was_reset(self):
+        """Note that the board has begun anew."""
+        if self.has_print() and self._is_on(RESET.code):
+            self._was_reset = True
+            self.look()
+
+    def paused(self):
+        """Note that the print is paused, by whomever."""
+        self._paused_for = self._pausing_for or self._paused_for
+        self._pausing_for = None
+
+    def resumed(self):
+        """Note that somebody has resumed the print: it is paused again if it may not go on."""
+        self._told = frozenset()
+        self._paused_for = None
+        # what a file does to its axes at its end is nobody's concern
+        self._was_off &= is_unhomed(self._model())
+        if self._pausing_for is not None and not self._pausing_for[1]:
+            # a box may be what stops the print next, a cause would be found again
+            self._pausing_for = None
+        self.look()
+
+    def ended(self):
+        """Note that there is no print any more, or another one."""
+        self._was_reset = self._was_off = False
+        self._told = frozenset()
+        self._paused_for = self._pausing_for = None
+
+    def handles(self, error):
+        """Return whether a serious error of the firmware only pauses the print."""
+        code = guarded_alert(error)
+        return code is not None and self.has_print() and self._is_on(code)
+
+    def refusal(self):
+        """Return why the print may not be resumed, ``None`` where it may."""
+        causes = self.causes()
+        if not causes:
+            return None
+        if all(is_resumable(cause) for cause in causes):
+            return gettext("The print stays paused. %(why)s", why=_sentences(causes))
+        return gettext("The print can only be cancelled. %(why)s", why=_sentences(causes))
+
+    ##~~ octoprint.server.api.before_request
+
+    def refuse(self):
+        """Return an answer for a request that would resume the print, ``None`` for others."""
+        request = flask.request
+        if request.endpoint != JOB_ENDPOINT or request.method != "POST":
+            return None
+        # without the permission OctoPrint's own answer is the right one
+        if not self._wants_to_go_on(request.get_json(silent=True)) or not Permissions.PRINT.can():
+            return None
+        why = self.refusal()
+        return refusal(409, why) if why else None
+
+    def _wants_to_go_on(self, data):
+        if not isinstance(data, dict):
+            return False
+        if data.get("command") == "restart":
+            return True
+        if data.get("command") != "pause":
+            return False
+        action = data.get("action", "toggle")
+        return action == "resume" or (action == "toggle" and self._printer().is_paused())
+
+
+def _sentences(alerts):
+    return " ".join(warning_text(alert.code, alert.values) for alert in alerts)

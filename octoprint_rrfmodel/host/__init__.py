@@ -1,0 +1,1 @@
+"""OctoPrint itself: its settings, printer profile, permissions, requests, job; sentences."""

@@ -1,0 +1,55 @@
+"""The plugin's settings and what they are when nobody has changed them."""
+
+from ..rrf.card.wording import ROWS as WORDING
+from ..rrf.gcode.operations import ROWS
+from ..rrf.gcode.unsendable import ROWS as UNSENDABLE
+from ..rrf.views.warnings import GUARDS
+
+VERSION = 1
+
+SIDEBAR = (
+    "state",
+    "message",
+    "warnings",
+    "heaters",
+    "axes",
+    "fans",
+    "factors",
+    "job",
+    "data",
+)
+"""Rows of the sidebar, from top to bottom."""
+
+DEFAULTS = {
+    # rows of the table of operations that are switched off go out as OctoPrint has them
+    "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
+    # rows of the table of replies that are switched off reach OctoPrint as the firmware has them
+    "replies": {row.name: True for row in WORDING},
+    # what pauses a print that OctoPrint streams
+    "guard": {code: True for code in GUARDS},
+    # keep the plugin's polls out of the terminal tab
+    "hide_polls": True,
+    "mqtt": {
+        # publish the model, where OctoPrint-MQTT is there
+        "enabled": True,
+        # the whole one: OctoPrint-MQTT puts nothing before it
+        "topic": "octoPrint/plugin/rrfmodel",
+    },
+    # tell what DisplayLayerProgress tells, where that plugin isn't there
+    "layer_progress": True,
+    # message boxes also in OctoPrint's own dialog for prompts of a printer
+    "prompts": False,
+    # rows of the sidebar that are shown
+    "sidebar": dict.fromkeys(SIDEBAR, True),
+    # whether somebody has been led through what a machine needs of OctoPrint
+    "wizard_seen": False,
+    "simulator": {
+        # whether the port RRF-SIM is offered
+        "enabled": False,
+        "machine": "cartesian",
+        "firmware": "3.5.3",
+        "speed": 1.0,
+        # names as the simulator's --list tells them, such as "lost_ok:50"
+        "faults": [],
+    },
+}

@@ -1,0 +1,1 @@
+"""OctoPrint's serial line: hooks, accounting of acknowledgements, card, terminal."""

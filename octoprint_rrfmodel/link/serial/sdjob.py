@@ -1,0 +1,186 @@
+"""The print from the board's card: both sides' idea of it kept the same.
+
+``cancel`` runs with whoever queues a command, ``situation`` and ``allow_opening`` on OctoPrint's
+receiving thread, ``news`` on the worker.
+"""
+
+from octoprint.util.version import is_octoprint_compatible
+
+from ...rrf.card.wording import Situation
+from ...rrf.gcode.operations import Lines
+from ...rrf.views.job import WITHOUT_JOB, CardJob, card_job
+
+IS_VERSION_2 = is_octoprint_compatible(">=2.0.0rc1")
+
+PREFIX = "" if IS_VERSION_2 else "/"
+"""In front of names in OctoPrint's list of the card's files."""
+
+END_JOB = "M400 M0"
+"""Runs cancel.g, on one line: alone M0 is a command that OctoPrint keeps back, and for M400 it is
+ready to wait."""
+
+CANCEL_SECONDS = 60.0
+"""Time after which a print that didn't pause is no longer waited for."""
+
+
+class SdJob:
+    """Ends the board's job when OctoPrint's ends, and shows what is done to it at the machine.
+
+    ``model()`` is the snapshot and ``is_current()`` whether it is newer than all that was sent.
+    ``send(line)`` gives a line to OctoPrint's queue.
+    """
+
+    def __init__(self, model, is_current, send, clock):
+        self._model = model
+        self._is_current = is_current
+        self._send = send
+        self._clock = clock
+        self.forget()
+
+    def forget(self):
+        """Know of no job: another connection."""
+        self._adopted = None
+        self._cancelled_at = None
+        self._asks_again = False
+        self._has_told_end = False
+        self._settled = CardJob()
+
+    def cancel(self, gcode):
+        """Return what goes out in the place of a command by which OctoPrint cancels.
+
+        On Marlin these stop reading the file. RepRapFirmware wants a job to be paused, then M0,
+        which runs cancel.g.
+        """
+        if gcode == "M26" or (gcode == "M25" and self._has_told_end):
+            # M26 would set where the next print begins; and what has ended needs no end
+            return Lines()
+        if gcode != "M25":
+            return None
+        self._cancelled_at = self._clock()
+        self._asks_again = True
+        if self._is_current() and card_job(self._model()).is_paused:
+            return Lines((END_JOB,))
+        # a pause may be put off, behind a tool change for example: M0 is then refused, and comes
+        # again when the model says paused
+        return Lines(("M25", END_JOB))
+
+    @staticmethod
+    def allow_opening(comm):
+        """Let OctoPrint take a name as its own list has it, and take it more than once."""
+        if comm._sdFileToSelect:
+            # without the slash 1.11 doesn't find the file in its list
+            comm._sdFileToSelect = PREFIX + comm._sdFileToSelect.lstrip("/")
+        if IS_VERSION_2 and not comm.isPrinting():
+            # set when a print starts, and never taken back in 2.0 (serial_comm.py:3227)
+            comm._ignore_select = False
+
+    def situation(self, comm, index, opened, knows_file, is_telling):
+        """Return what the words of a reply depend on.
+
+        ``opened`` is alias and size of the file that was asked for. ``knows_file`` says whether
+        the model tells which file is printed, ``is_telling`` whether OctoPrint hasn't heard all
+        of the last news yet.
+        """
+        job = card_job(self._model())
+        # a position that grows is a print of the selected file to OctoPrint unless it has one, and
+        # a new one if it has paused; the status is there before the name of the file, so that only
+        # the last news that were current count
+        settled = self._settled
+        is_other = knows_file and not (
+            settled.is_active and _is_selected(comm, index, settled.path)
+        )
+        # between "File opened" and "File selected" OctoPrint already counts the new file's
+        # progress, and would begin with the old file's name
+        is_unknown = is_other or is_telling
+        hides = (
+            self._cancelled_at is not None or comm.isPaused() or (is_unknown and not comm.isBusy())
+        )
+        names_file = bool(comm._sdFileToSelect)
+        return Situation(opened, names_file, comm.isSdPrinting(), hides, job)
+
+    def news(self, comm, index):
+        """Follow the board; return lines that tell OctoPrint of what it can't know."""
+        if not self._is_current():
+            self._settled = CardJob()
+            return ()
+        job = self._settled = card_job(self._model())
+        if self._cancelled_at is not None:
+            self._finish_cancelling(job)
+        elif job.is_active:
+            return self._follow(comm, index, job)
+        else:
+            self._adopted = None
+            return self._tell_end(comm)
+        return ()
+
+    def _tell_end(self, comm):
+        """Return what ends a paused print of OctoPrint's that was ended at the machine.
+
+        One that goes on OctoPrint ends by itself, when it hears often enough that nothing is
+        printed; while it is paused it doesn't count that.
+        """
+        if not comm.isBusy():
+            self._has_told_end = False
+        status = (self._model().get("state") or {}).get("status")
+        if not comm.isPaused() or not comm.isSdFileSelected() or status not in WITHOUT_JOB:
+            return ()
+        if self._has_told_end:
+            return ()
+        self._has_told_end = True
+        return ("// action:cancel",)
+
+    def _finish_cancelling(self, job):
+        if not job.is_active or self._clock() - self._cancelled_at > CANCEL_SECONDS:
+            self._cancelled_at = None
+        elif job.is_paused and self._asks_again:
+            self._asks_again = False
+            self._send(END_JOB)
+
+    def _follow(self, comm, index, job):
+        self._has_told_end = False
+        if comm.isSdFileSelected() and comm.isPaused():
+            return ("// action:resumed",) if job.status == "processing" else ()
+        if comm.isSdPrinting():
+            is_between = (
+                comm.isStarting()
+                or comm.isPausing()
+                or comm.isResuming()
+                or comm.isCancelling()
+                or comm.isFinishing()
+            )
+            return ("// action:paused",) if job.is_paused and not is_between else ()
+        if comm.isBusy() or not comm.isOperational() or comm._sdFileToSelect:
+            return ()
+        return self._adopt(comm, index, job.path)
+
+    def _adopt(self, comm, index, path):
+        """Return what selects the file of a job that was started at the machine.
+
+        OctoPrint then asks for its progress and takes a position that grows for a print.
+        """
+        alias = index.alias_of(path) if index else None
+        if alias is None or self._adopted == path or not is_listed(comm, alias):
+            return ()
+        self._adopted = path
+        if _is_selected(comm, index, path):
+            return ()
+        self.allow_opening(comm)
+        size = index.file_of(alias).size
+        return (f"File opened: {PREFIX}{alias} Size: {size}", "File selected")
+
+
+def is_listed(comm, alias):
+    """Return whether OctoPrint's own list has a file.
+
+    2.0 looks for the file that it is told of in that list, and gives the connection up where it
+    isn't there (connector.py:724).
+    """
+    return PREFIX + alias in comm._sdFiles and comm.isSdReady()
+
+
+def _is_selected(comm, index, path):
+    """Return whether a file of the card is the one that OctoPrint would print."""
+    alias = index.alias_of(path) if index else None
+    if alias is None or not comm.isSdFileSelected():
+        return False
+    return comm._currentFile.getFilename() == PREFIX + alias

@@ -1,0 +1,41 @@
+"""Commands that would hang the line, dropped on their way through the queuing hook."""
+
+import logging
+
+from ...host.tags import FILE_TAG
+from ...rrf.gcode.operations import NOTHING, Lines
+from ...rrf.gcode.unsendable import text_of_box, unsendable
+
+PAUSE = Lines(("@pause",))
+"""OctoPrint's own command that pauses the print where it stands; the printer doesn't see it."""
+
+
+class UnsendableCommands:
+    """Says which commands are better not sent, whoever wants to.
+
+    ``machine()`` is the view of the model that it depends on. ``is_on(row)`` says whether a row
+    of the table is switched on. ``refused(code, detail)`` and ``paused(message)`` only take note.
+    """
+
+    def __init__(self, machine, is_on, refused, paused):
+        self._machine = machine
+        self._is_on = is_on
+        self._refused = refused
+        self._paused = paused
+        self._logger = logging.getLogger("octoprint.plugins.rrfmodel.unsendable")
+
+    def instead(self, cmd, gcode, tags):
+        """Return what to queue in place of ``cmd``, ``None`` to queue it as it is.
+
+        Who waits for it is told. A print pauses where a person was to act, as it does at M0.
+        """
+        row = unsendable(cmd, gcode, self._machine())
+        if row is None or not self._is_on(row.name):
+            return None
+        self._logger.info("Not sending %r: %s", cmd, row.reason)
+        if row.pauses and FILE_TAG in tags:
+            self._paused(text_of_box(cmd))
+            return PAUSE
+        if row.is_told:
+            self._refused(row.name, cmd)
+        return NOTHING

@@ -1,0 +1,1 @@
+"""The board's files, and what is said of them."""

@@ -1,0 +1,194 @@
+"""One board followed: the plan, the replies and the model that they make.
+
+    next_request() -> (somebody sends it, somebody hears the line) -> take(text)
+
+Belongs to one thread; ``store.model`` may be read by any.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from ..model.merge import NestedTooDeep
+from ..model.store import ModelStore
+from ..wire.live_reader import LiveReader
+from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
+from ..wire.request import LIVE_FLAGS, ModelRequest, Request
+from .poll import ModelPlan, Update
+from .poll408 import StatusPlan
+
+LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
+
+NOT_SUPPORTED_AFTER = 3
+"""Times that ``M409`` may stay without any answer before ``M408`` is tried."""
+
+
+class Taken(NamedTuple):
+    """What a reply did."""
+
+    changes: dict[str, Any]
+    """What changed, by top-level key; see ``merge.Changes``."""
+    reset: bool
+    """Whether it showed that the board had been reset; the model then begins anew."""
+
+
+class Follower:
+    """Keeps the model of one board fresh, whatever the board answers to."""
+
+    def __init__(self) -> None:
+        self.store = ModelStore()
+        self.protocol: str | None = None
+        """``M409`` or ``M408`` once one of them was answered."""
+        self.counters = {"replies": 0, "malformed": 0, "out_of_buffers": 0, "timeouts": 0}
+        self.resets = 0
+        self.is_mute = False
+        """Whether the board answered neither to ``M409`` nor to ``M408``; both are tried again."""
+        self._start()
+
+    def _start(self) -> None:
+        self._plan: ModelPlan | StatusPlan = ModelPlan()
+        self._reader = LiveReader()
+        self._unanswered = 0
+        self._unconfirmed: dict[Request, tuple[str, ...]] = {}
+
+    @property
+    def ready(self) -> bool:
+        """Whether every key was fetched since the connection or the last reset."""
+        return self._plan.ready
+
+    @property
+    def behind(self) -> bool:
+        """Whether there is more to ask than live values."""
+        return self._plan.behind
+
+    @property
+    def short_of_buffers(self) -> int:
+        """How many times in a row the board had no room for its answer."""
+        return self._plan.short_of_buffers
+
+    def next_request(self) -> Request:
+        """Return what to ask the board now."""
+        return self._plan.next_request()
+
+    def take(self, text: str) -> Taken | None:
+        """Take a reply; return what it did, ``None`` where it answers another request.
+
+        Raises ``MalformedReply`` for one that can't be read: what was asked for stays wanted.
+        """
+        request = self._plan.next_request()
+        try:
+            reply = self._decode(text, request)
+            if isinstance(reply, NoBuffers):
+                self.counters["out_of_buffers"] += 1
+                self._plan.no_buffers()
+                self._begin_if_exhausted()
+                return Taken({}, False)
+            if not answers(reply, request):
+                if isinstance(reply, ModelReply) and isinstance(self._plan, StatusPlan):
+                    # it was only late, or somebody else asked: the board has M409 after all
+                    self.forget()
+                return None
+            self.counters["replies"] += 1
+            self.protocol = "M409" if isinstance(reply, ModelReply) else "M408"
+            self._unanswered = 0
+            self.is_mute = False
+            changes: dict[str, Any] = {}
+            for update in self._plan.take(reply):  # type: ignore[arg-type]
+                changes.update(self._apply(update))
+        except (MalformedReply, NestedTooDeep) as error:
+            self.counters["malformed"] += 1
+            self._reader.forget()
+            self._failed()
+            raise MalformedReply(str(error)) from None
+        self._confirm(request, foreign_strings(text))
+        if self._plan.observe(self.store.model):
+            self.resets += 1
+            self.store.forget()
+            self._reader.forget()
+            return Taken(changes, True)
+        return Taken(changes, False)
+
+    def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
+        """Ask for a key again until its letters beyond ASCII come twice the same.
+
+        Lines have no checksum here, and a broken byte in a name is still a name: what is read
+        once may be wrong for good, since nothing but a change makes the key be asked for again.
+        """
+        if not isinstance(request, ModelRequest) or not request.key:
+            return
+        if not strings or self._unconfirmed.get(request) == strings:
+            self._unconfirmed.pop(request, None)
+        else:
+            self._unconfirmed[request] = strings
+            self._plan.refetch(request.key.partition(".")[0])
+
+    def timed_out(self) -> None:
+        """Note that ``next_request`` was sent and nothing came."""
+        self.counters["timeouts"] += 1
+        self._unanswered += 1
+        if self._unanswered >= NOT_SUPPORTED_AFTER:
+            self.not_supported()
+        else:
+            self._failed()
+
+    def not_supported(self) -> None:
+        """Note that the firmware doesn't know the command: try the other one, turn by turn."""
+        if self.protocol is None and isinstance(self._plan, ModelPlan):
+            self._plan = StatusPlan()
+            self._unanswered = 0
+        else:
+            self._failed()
+
+    def _failed(self) -> None:
+        self._plan.failed()
+        self._begin_if_exhausted()
+
+    def _begin_if_exhausted(self) -> None:
+        """Try ``M409`` once more where ``M408`` brought nothing either."""
+        if isinstance(self._plan, StatusPlan) and self._plan.exhausted:
+            self.forget()
+            self.is_mute = True
+
+    def refetch(self, key: str = "") -> None:
+        """Ask for a key again, or for all of them."""
+        self._plan.refetch(key)
+
+    def forget(self) -> None:
+        """Begin anew: another connection, perhaps another board."""
+        self.store.forget()
+        self.protocol = None
+        self.is_mute = False
+        self._start()
+
+    def _decode(self, text: str, request: Request) -> ModelReply | StatusReply | NoBuffers:
+        if request != LIVE_ROOT:
+            return decode(text)
+        members = self._reader.changed(text)
+        if members is not None:
+            return ModelReply("", LIVE_FLAGS, members, 0)
+        reply = decode(text)
+        if isinstance(reply, ModelReply) and answers(reply, request):
+            self._reader.remember(text)
+        return reply
+
+    def _apply(self, update: Update) -> dict[str, Any]:
+        if update.path:
+            # the key's live members may now be other than the last live reply said
+            self._reader.forget()
+            return self.store.replace(update.path, update.value)
+        return self.store.patch(update.value)
+
+
+def answers(reply: ModelReply | StatusReply | NoBuffers, request: Request) -> bool:
+    """Return whether a reply is one to this request.
+
+    ``M409`` echoes key and flags; in SBC mode ``network`` and ``volumes`` come without flags.
+    ``M408`` echoes nothing.
+    """
+    if isinstance(request, ModelRequest):
+        return (
+            isinstance(reply, ModelReply)
+            and reply.key == request.key
+            and reply.flags in (None, request.flags)
+        )
+    return isinstance(reply, StatusReply)

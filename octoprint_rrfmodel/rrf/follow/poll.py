@@ -1,0 +1,226 @@
+"""What to ask the board next. Decides; sends nothing and knows no clock."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ..wire.reply import ModelReply
+from ..wire.request import LIVE_FLAGS, OUTLINE_FLAGS, ModelRequest, Request
+from .fetch import Fetch
+
+SEQS = "seqs"
+
+LIVE_KEYS = (
+    "state",
+    "heat",
+    SEQS,
+    "tools",
+    "move",
+    "job",
+    "fans",
+    "sensors",
+    "inputs",
+    "spindles",
+    "boards",
+)
+"""Top-level keys with live members, the most wanted first."""
+
+FIRST = ("state", "boards", "heat", "tools", "move", "job", "fans", "sensors", "inputs")
+"""Fetched before the others, so that a page has something to show early."""
+
+FETCHES_BETWEEN_LIVE = 4
+"""Keys fetched in a row before a live reply is due again."""
+
+PATIENCE = 3
+"""Failures of one key in a row before the next one gets its turn."""
+
+
+class Update(NamedTuple):
+    """A value to put into the store; an empty path patches the whole model."""
+
+    path: str
+    value: Any
+
+
+class ModelPlan:
+    """The order of ``M409`` requests, from what is known and what has failed.
+
+    First the counters (``seqs``), the names of the keys, and every key once; then the live root
+    again and again, and each key whose counter moved. A counter is taken before its key is
+    asked for, so that a change in between is seen as one.
+    """
+
+    def __init__(self) -> None:
+        self._begin()
+
+    def _begin(self) -> None:
+        self._request: ModelRequest | None = None
+        self._counters: Mapping[str, Any] | None = None
+        self._asked: dict[str, Any] = {}
+        self._keys: list[str] | None = None
+        self._fetched: set[str] = set()
+        self._wanted: list[str] = []
+        self._fetch: Fetch | None = None
+        self._live: list[Fetch] = []
+        self._live_in_parts = False
+        self._since_live = 0
+        self._failures = 0
+        self._short = 0
+        self._up_time: float | None = None
+
+    @property
+    def ready(self) -> bool:
+        """Whether every key was fetched at least once since the beginning or a reset."""
+        return self._keys is not None and self._fetched.issuperset(self._keys)
+
+    @property
+    def behind(self) -> bool:
+        """Whether something waits to be fetched, apart from live values."""
+        return self._keys is None or bool(self._wanted)
+
+    @property
+    def short_of_buffers(self) -> int:
+        """How many times in a row the board had no room for its answer."""
+        return self._short
+
+    def next_request(self) -> Request:
+        """Return what to ask now; the same again until it was answered or given up."""
+        if self._request is None:
+            self._request = self._choose()
+        return self._request
+
+    def _choose(self) -> ModelRequest:
+        if self._counters is None:
+            return ModelRequest(SEQS, LIVE_FLAGS)
+        if self._keys is None:
+            return ModelRequest("", OUTLINE_FLAGS)
+        if self._fetch is None and self._wanted and self._since_live < FETCHES_BETWEEN_LIVE:
+            key = self._wanted[0]
+            self._fetch = Fetch(key)
+            self._asked[key] = self._counter(key)
+        if self._fetch is not None:
+            return self._fetch.request
+        if not self._live_in_parts:
+            return ModelRequest("", LIVE_FLAGS)
+        if not self._live:
+            self._live = [
+                Fetch(key, LIVE_FLAGS) for key in LIVE_KEYS if key in self._fetched or key == SEQS
+            ]
+        return self._live[0].request
+
+    def take(self, reply: ModelReply) -> list[Update]:
+        """Take the answer to ``next_request``; return what it adds to the model."""
+        self._request = None
+        self._failures = self._short = 0
+        if self._counters is None:
+            self._counters = reply.result if isinstance(reply.result, dict) else {}
+            return [Update("", {SEQS: self._counters})]
+        if self._keys is None:
+            return self._take_outline(reply.result)
+        if self._fetch is not None:
+            return self._take_key(self._fetch, reply)
+        self._since_live = 0
+        if not self._live_in_parts:
+            return [Update("", reply.result)] if isinstance(reply.result, dict) else []
+        fetch = self._live[0]
+        if not fetch.take(reply):
+            return []
+        self._live.pop(0)
+        return [] if fetch.value is None else [Update("", {fetch.key: fetch.value})]
+
+    def failed(self) -> None:
+        """Note that ``next_request`` brought nothing that could be used; it will be asked again.
+
+        Where one key fails again and again the others get their turn, and so do keys that wait
+        where live values fail.
+        """
+        self._request = None
+        self._failures += 1
+        if self._failures < PATIENCE:
+            return
+        self._failures = 0
+        if self._fetch is not None:
+            self._wanted.append(self._wanted.pop(0))
+            self._fetch = None
+            self._since_live = FETCHES_BETWEEN_LIVE
+        else:
+            self._live = self._live[1:]
+            self._since_live = 0
+
+    def no_buffers(self) -> None:
+        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests."""
+        self._request = None
+        self._short += 1
+        if self._short < 2:
+            return
+        if self._fetch is not None:
+            if not self._fetch.split():
+                self.failed()
+        elif self._live_in_parts:
+            self.failed()
+        elif self._keys is not None:
+            self._live_in_parts = True
+
+    def observe(self, model: Mapping[str, Any]) -> bool:
+        """Look at counters and up-time after a change; return whether the board was reset.
+
+        After a reset the plan begins anew (Duet3D/Connectors, PollConnector: an up-time below
+        the last one seen).
+        """
+        state = model.get("state")
+        up_time = state.get("upTime") if isinstance(state, dict) else None
+        if isinstance(up_time, (int, float)):
+            if self._up_time is not None and up_time < self._up_time:
+                self._begin()
+                return True
+            self._up_time = up_time
+        counters = model.get(SEQS)
+        if isinstance(counters, dict) and counters is not self._counters:
+            self._counters = counters
+            for key in self._keys or ():
+                if key in self._asked and self._asked[key] != self._counter(key):
+                    self._want(key)
+        return False
+
+    def refetch(self, key: str = "") -> None:
+        """Want a key again, or every one."""
+        for name in self._keys or ():
+            if key in ("", name):
+                self._want(name)
+
+    def _take_outline(self, outline: Any) -> list[Update]:
+        """Learn the names of the keys; the firmware says them all, verbose ones too."""
+        names = [name for name in outline if name != SEQS] if isinstance(outline, dict) else []
+        if not names:
+            self._keys = [key for key in LIVE_KEYS if key != SEQS]
+        else:
+            self._keys = sorted(names, key=lambda name: (name not in FIRST, _place(name)))
+        self._wanted = list(self._keys)
+        return []
+
+    def _take_key(self, fetch: Fetch, reply: ModelReply) -> list[Update]:
+        if not fetch.take(reply):
+            return []
+        self._fetch = None
+        self._wanted.pop(0)
+        self._fetched.add(fetch.key)
+        self._since_live += 1
+        if self._asked[fetch.key] != self._counter(fetch.key):
+            self._want(fetch.key)
+        return [Update(fetch.key, fetch.value)]
+
+    def _want(self, key: str) -> None:
+        if key not in self._wanted:
+            self._wanted.append(key)
+
+    def _counter(self, key: str) -> Any:
+        """Return what tells whether a key changed; files on a card count by themselves."""
+        counters = self._counters or {}
+        if key == "volumes":
+            return counters.get(key), counters.get("volChanges")
+        return counters.get(key)
+
+
+def _place(key: str) -> int:
+    return FIRST.index(key) if key in FIRST else len(FIRST)

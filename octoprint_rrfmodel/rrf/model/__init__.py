@@ -1,0 +1,1 @@
+"""The object model: its grammar, how replies change it, the snapshot."""

@@ -1,0 +1,1 @@
+"""Text of the line to values and back."""

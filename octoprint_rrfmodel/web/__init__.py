@@ -1,0 +1,1 @@
+"""HTTP and push: what pages and programs ask for."""

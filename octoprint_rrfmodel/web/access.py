@@ -1,0 +1,97 @@
+"""Who is asking on a route of Tornado's, where OctoPrint checks nothing by itself."""
+
+import hmac
+
+import flask
+import flask_login
+import octoprint.server
+from octoprint.access.permissions import Permissions
+from octoprint.server.util import get_api_key, get_user_for_apikey
+from octoprint.server.util.tornado import WsgiInputContainer
+from octoprint.settings import settings
+
+from ..host.octoprint_settings import IS_2
+
+
+class Caller:
+    """A user of OctoPrint as it was at the handshake, who is looked up again for each question.
+
+    ``user`` is OctoPrint's. ``find_by_key()`` finds it by the key that was shown, ``None`` for a
+    session; ``find_user(name)`` is the user manager's.
+    """
+
+    def __init__(self, user, find_by_key, find_user):
+        self._user = user
+        self._find_by_key = find_by_key
+        self._find_user = find_user
+        self._is_out = False
+
+    @property
+    def is_of_session(self):
+        """Whether a browser's session was shown, which a page of another site can make it do."""
+        return self._find_by_key is None
+
+    def may_read(self):
+        """Return whether the user may read the model now."""
+        return self._may("PLUGIN_RRFMODEL_READ")
+
+    def may_control(self):
+        """Return whether the user may command the machine now."""
+        return self._may("PLUGIN_RRFMODEL_CONTROL")
+
+    def logged_out(self, user):
+        """Note that a session has ended: this one's, if it is the same."""
+        session = getattr(self._user, "session", None)
+        # who is remembered by a cookie has none
+        is_same = session is None or session == getattr(user, "session", None)
+        if self.is_of_session and is_same and user.get_id() == self._user.get_id():
+            self._is_out = True
+
+    def _may(self, permission):
+        user = self._current()
+        return user is not None and user.has_permission(getattr(Permissions, permission))
+
+    def _current(self):
+        """Return the user as it is by now, ``None`` for one that is gone."""
+        if self._is_out:
+            return None
+        if self._find_by_key is not None:
+            return self._find_by_key()
+        found = self._find_user(self._user.get_id())
+        return found if found is not None and found.is_active else None
+
+
+def caller_of(app, request, find_user):
+    """Return who sends a Tornado request: by key, else by session; ``None`` for nobody.
+
+    A key that isn't known is nobody's, whatever session comes with it. ``app`` is OctoPrint's
+    Flask application.
+    """
+    environ = WsgiInputContainer.environ(request)
+
+    def find_by_key():
+        # OctoPrint notes in the session how somebody came in
+        with app.request_context(environ):
+            return user_of_key(get_api_key(flask.request), flask.request.remote_addr)
+
+    with app.request_context(environ):
+        if get_api_key(flask.request):
+            user = find_by_key()
+            return None if user is None else Caller(user, find_by_key, find_user)
+        app.login_manager._load_user()
+        user = flask_login.current_user
+        if user is None or user.is_anonymous:
+            return None
+        return Caller(user._get_current_object(), None, find_user)
+
+
+def user_of_key(key, address):
+    """Return whose key this is, ``None`` for nobody's."""
+    # each use of the global key would be logged, and it is looked at every second
+    global_key = settings().get(["api", "key"])
+    if global_key and hmac.compare_digest(key.encode(), global_key.encode()):
+        return octoprint.server.userManager.api_user_factory()
+    if IS_2:
+        # that plugins of OctoPrint's own may use theirs only on this machine
+        return get_user_for_apikey(key, remote_address=address)
+    return get_user_for_apikey(key)

@@ -1,0 +1,78 @@
+"""The paths below ``/plugin/rrfmodel`` that Flask serves; each answer checks the permission."""
+
+import flask
+from octoprint.plugin import BlueprintPlugin
+
+from .meanings_api import get_meanings
+from .moonraker.moonraker_api import body
+
+
+class Endpoints(BlueprintPlugin):
+    """Hands each request to the part that answers it.
+
+    The class that inherits it has ``_api`` (``api.ModelApi``), ``_history``
+    (``history.MachineHistory``), ``_setup`` (``setup_page.Setup``) and ``_interfaces``
+    (``interfaces.Interfaces``).
+    """
+
+    def is_blueprint_protected(self):
+        return False  # READ may be granted to guests; each endpoint checks it
+
+    def is_blueprint_csrf_protected(self):
+        return True
+
+    @BlueprintPlugin.route("/status", methods=["GET"])
+    def get_status(self):
+        return self._api.get_status()
+
+    @BlueprintPlugin.route("/model", methods=["GET"])
+    def get_model(self):
+        return self._api.get_model(flask.request.args)
+
+    @BlueprintPlugin.route("/history", methods=["GET"])
+    def get_history(self):
+        return self._history.get_history(flask.request.args)
+
+    @BlueprintPlugin.route("/meanings", methods=["GET"])
+    def get_meanings(self):
+        return get_meanings()
+
+    @BlueprintPlugin.route("/setup", methods=["GET"])
+    def get_setup(self):
+        return self._setup.get_setup()
+
+    @BlueprintPlugin.route("/metrics", methods=["GET"])
+    def get_metrics(self):
+        return self._api.get_metrics()
+
+    @BlueprintPlugin.route("/openapi.json", methods=["GET"])
+    def get_openapi(self):
+        return self._api.get_openapi()
+
+    @BlueprintPlugin.route("/printer/objects/list", methods=["GET"])
+    def get_objects(self):
+        return self._interfaces.moonraker.get_list()
+
+    @BlueprintPlugin.route("/printer/objects/query", methods=["GET"])
+    def get_objects_query(self):
+        return self._interfaces.moonraker.get_query(flask.request.args)
+
+    @BlueprintPlugin.route("/printer/objects/query", methods=["POST"])
+    def post_objects_query(self):
+        return self._interfaces.moonraker.post_query(body())
+
+    @BlueprintPlugin.route("/printer/info", methods=["GET"])
+    def get_printer_info(self):
+        return self._interfaces.moonraker.get_printer_info()
+
+    @BlueprintPlugin.route("/server/info", methods=["GET"])
+    def get_server_info(self):
+        return self._interfaces.moonraker.get_server_info()
+
+    @BlueprintPlugin.route("/printer/gcode/script", methods=["POST"])
+    def post_gcode_script(self):
+        return self._interfaces.moonraker.post_script(flask.request.args, body())
+
+    @BlueprintPlugin.route("/server/gcode_store", methods=["GET"])
+    def get_gcode_store(self):
+        return self._interfaces.moonraker.get_gcode_store(flask.request.args)

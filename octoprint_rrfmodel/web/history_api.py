@@ -1,0 +1,95 @@
+"""What the charts show: kept here, so that every page has it, also one that was just opened."""
+
+import math
+import threading
+import time
+
+from flask_babel import gettext
+
+from ..rrf.views.history import INTERVAL_SECONDS, History
+from ..rrf.views.layers import Layers
+from .model_api import answer, may_read, refusal
+
+TICK_SECONDS = 1.0
+
+
+class MachineHistory:
+    """Keeps samples and layers, and answers requests for them.
+
+    ``model()`` is the snapshot, ``is_stale()`` says whether it may still be shown as what is so
+    now, ``now()`` is the time of day in seconds.
+    """
+
+    def __init__(self, model, is_stale, now=time.time):
+        self._model = model
+        self._is_stale = is_stale
+        self._now = now
+        self._history = History()
+        self._layers = Layers()
+        self._lock = threading.Lock()
+
+    ##~~ on the worker
+
+    def replied(self):
+        """Take what the model says after a reply."""
+        model, now = self._model(), self._now()
+        with self._lock:
+            self._history.sample(model, now)
+            self._layers.look(model, now)
+
+    def heard(self, line):
+        """Take a line of text from the printer."""
+        with self._lock:
+            self._layers.heard(line)
+
+    def forgotten(self):
+        """Leave a gap: the connection is gone."""
+        with self._lock:
+            self._history.gap(self._now())
+
+    def tick(self):
+        """Leave a gap where nothing has come for too long; return the seconds until next time."""
+        if self._is_stale():
+            self.forgotten()
+        return TICK_SECONDS
+
+    ##~~ any thread
+
+    def get_history(self, arguments):
+        """Return what is kept, or only what has come since a time."""
+        if not may_read():
+            return refusal(403, gettext("You may not read the machine's model."))
+        try:
+            since = float(arguments.get("since", "-inf"))
+        except ValueError:
+            since = math.nan
+        if math.isnan(since):
+            return refusal(400, gettext("The time in since is a number of seconds."))
+        return answer(self._told(since))
+
+    def _told(self, since):
+        with self._lock:
+            now = self._now()
+            samples = self._history.since(since)
+            layers = self._layers.since(since)
+            began_at = self._layers.began_at
+        return {
+            "now": _rounded(now),
+            "interval": INTERVAL_SECONDS,
+            "times": [_rounded(at) for at in samples.times],
+            "series": [{"id": each.id, **each._asdict()} for each in samples.series],
+            "began": None if began_at is None else _rounded(began_at),
+            "layers": [_layer(each) for each in layers],
+        }
+
+
+def _layer(layer):
+    told = {
+        name: value if value is None else round(value, 2) for name, value in layer._asdict().items()
+    }
+    return {**told, "layer": layer.layer, "at": _rounded(layer.at)}
+
+
+def _rounded(seconds):
+    """Return a time in milliseconds, never later than it is: it is asked for what came since."""
+    return math.floor(seconds * 1000) / 1000

@@ -1,0 +1,72 @@
+"""Klipper's printer objects of this printer, and what goes with them."""
+
+import socket
+
+from ...rrf import klipper
+
+
+class PrinterObjects:
+    """Answers about printer objects from what is known; any thread may ask.
+
+    ``follower`` has the model, ``is_connected()`` says whether RepRapFirmware is at the line's
+    other end, ``job()`` gives OctoPrint's own job, ``clock()`` the time in seconds that clients
+    get as ``eventtime``, ``version()`` the plugin's.
+    """
+
+    def __init__(self, follower, is_connected, job, clock, version):
+        self._follower = follower
+        self._is_connected = is_connected
+        self._job = job
+        self._clock = clock
+        self._version = version
+        self._kept = klipper.Kept()
+
+    ##~~ on the worker
+
+    def replied(self):
+        """Take a reply's news into what is kept from one to the next."""
+        self._kept.observe(self._follower.store.model, self._host(), self._clock())
+
+    def heard(self, line):
+        """Note a line that the printer said."""
+        self._kept.heard(line)
+
+    def forget(self):
+        """Know nothing: the connection is gone."""
+        self._kept.forget()
+
+    ##~~ what others ask
+
+    def world(self):
+        """Return what objects are computed from, as it is now."""
+        model = self._follower.store.model
+        return klipper.World(model, self._host(), self._kept.snapshot, self._clock())
+
+    def names(self):
+        """Return the names of the objects that there are."""
+        return klipper.names(self.world())
+
+    def query(self, wanted):
+        """Return the fields that are wanted, with the time of the answer."""
+        world = self.world()
+        return {"eventtime": world.eventtime, "status": klipper.status(world, wanted)}
+
+    def state(self):
+        """Return the printer's state in Klipper's words, ``disconnected`` without a line."""
+        return klipper.server_info(self.world(), 0, "")["klippy_state"]
+
+    def server_info(self, websocket_count):
+        """Return what ``server.info`` answers."""
+        return klipper.server_info(self.world(), websocket_count, self._version())
+
+    def printer_info(self):
+        """Return what ``printer.info`` answers."""
+        return klipper.printer_info(self.world(), self._version(), socket.gethostname())
+
+    def _host(self):
+        return klipper.Host(
+            is_connected=self._is_connected(),
+            is_ready=self._follower.ready,
+            has_protocol=not self._follower.is_mute,
+            job=self._job(),
+        )

@@ -1,0 +1,118 @@
+"""Those who subscribed to printer objects, and what each of them has been told.
+
+All of it runs on Tornado's loop. A change is told at once, and then nothing for a quarter of a
+second. What many asked for alike is computed, compared and written as text once for all.
+"""
+
+from ...rrf import klipper
+from . import jsonrpc
+
+QUIET_SECONDS = 0.25
+"""Time after a message in which a subscriber gets no other (Klipper's own period)."""
+
+
+class _Subscription:
+    """What one connection wants, what it was told last, and when."""
+
+    def __init__(self, wanted, told):
+        self.wanted = wanted
+        self.told = told
+        self.told_at = float("-inf")
+
+
+class Subscribers:
+    """Tells each connection what has changed of the objects that it subscribed to.
+
+    ``world()`` is what objects are computed from. ``loop`` is Tornado's: ``time()``,
+    ``call_at(when, function)``. A connection has ``send(text)``, which doesn't wait.
+    """
+
+    def __init__(self, world, loop):
+        self._world = world
+        self._loop = loop
+        self._subscriptions = {}
+        self._latest = {}
+        self._timer = None
+
+    def subscribe(self, connection, wanted):
+        """Replace what a connection subscribed to; return the complete status and its time."""
+        world = self._world()
+        status = klipper.status(world, wanted)
+        if wanted:
+            key = _key(wanted)
+            # who knows the same is told the same, whenever they came
+            if self._latest.get(key) == status:
+                status = self._latest[key]
+            self._latest[key] = status
+            self._subscriptions[connection] = _Subscription(key, status)
+        else:
+            self.unsubscribe(connection)
+        return status, world.eventtime
+
+    def unsubscribe(self, connection):
+        """Forget a connection."""
+        self._subscriptions.pop(connection, None)
+        if not self._subscriptions:
+            self._latest.clear()
+
+    def __len__(self):
+        """Return how many connections are subscribed."""
+        return len(self._subscriptions)
+
+    def changed(self):
+        """Tell those whose quiet time is over, and see to the others when theirs is."""
+        if not self._subscriptions:
+            return
+        now = self._loop.time()
+        due = [
+            (connection, subscription)
+            for connection, subscription in self._subscriptions.items()
+            if now - subscription.told_at >= QUIET_SECONDS
+        ]
+        if due:
+            self._tell(due, now)
+        # those just told, too: the next change may come while they are to be left in peace
+        quiet = [
+            subscription.told_at
+            for subscription in self._subscriptions.values()
+            if now - subscription.told_at < QUIET_SECONDS
+        ]
+        if quiet and self._timer is None:
+            self._timer = self._loop.call_at(min(quiet) + QUIET_SECONDS, self._on_timer)
+
+    def _on_timer(self):
+        self._timer = None
+        self.changed()
+
+    def _tell(self, due, now):
+        world = self._world()
+        statuses = {}
+        texts = {}
+        for connection, subscription in due:
+            wanted, told = subscription.wanted, subscription.told
+            if wanted not in statuses:
+                statuses[wanted] = klipper.status(world, dict(wanted))
+            status = statuses[wanted]
+            # whoever was told the same has the same object
+            group = wanted, id(told)
+            if group not in texts:
+                texts[group] = _text(klipper.difference(told, status), world.eventtime), told
+            text = texts[group][0]
+            if text is not None:
+                self._latest[wanted] = status
+                subscription.told, subscription.told_at = status, now
+                connection.send(text)
+
+
+def _key(wanted):
+    """Return a request in a form that is equal for equal requests."""
+    return tuple(
+        (name, None if fields is None else tuple(fields)) for name, fields in sorted(wanted.items())
+    )
+
+
+def _text(difference, eventtime):
+    """Return the message with what has changed, ``None`` where nothing has."""
+    if not difference:
+        return None
+    return jsonrpc.notification("notify_status_update", [difference, eventtime])

@@ -1,0 +1,44 @@
+"""Polling on a UART of 115200 baud: how much of the line it takes during a print."""
+
+import time
+
+import pytest
+
+from .. import helpers
+
+BAUD = 115200
+SHARE = 0.05
+WATCHED_SECONDS = 60
+
+
+@pytest.fixture
+def board(board_factory):
+    return board_factory(machine="cartesian", baud=BAUD, speed=1)
+
+
+def test_polls_take_a_twentieth_of_the_line(server_factory, board):
+    server = server_factory()
+    server.connect(board.link)
+    helpers.wait_ready(server, 60)
+    board.board.execute("G92 X0 Y0 Z0", channel="http")
+    # slow enough to last, with a line every now and then
+    lines = [f"G1 X{number % 2 * 20} F1200" for number in range(400)]
+    server.upload("long.gcode", "\n".join(["G92 X0 Y0 Z0", *lines]))
+    server.select_and_print("long.gcode")
+    server.wait_state("Printing")
+    helpers.wait_polls(server, 1, 60)
+    before = helpers.status(server)["counters"]
+    started = time.monotonic()
+    server.wait_for(
+        lambda: time.monotonic() - started > WATCHED_SECONDS, 2 * WATCHED_SECONDS, "a minute"
+    )
+    after = helpers.status(server)["counters"]
+    seconds = time.monotonic() - started
+    assert server.state().startswith("Printing")
+    polls = after["polls"] - before["polls"]
+    # what stands around each reply: its request, the blank line, two ok, M105 and its answer
+    around = polls * 150
+    taken = (after["bytes"] - before["bytes"] + around) * 10 / BAUD
+    assert polls >= 1
+    # the first poll after the idle time before the print may still have come at idle pace
+    assert taken / seconds <= SHARE * 1.1

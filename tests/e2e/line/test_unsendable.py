@@ -1,0 +1,171 @@
+"""Commands that would hang the line don't get there, whoever sends them."""
+
+import time
+
+import pytest
+
+from tests.support.basedir import ADMIN
+from tests.support.push import PushListener
+
+from .. import helpers
+
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
+
+BLOCKING_BOX = 'M291 P"Is it S1 there?" R"Look" S3'
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory):
+    return module_server_factory()
+
+
+@pytest.fixture
+def connected(server, board_factory):
+    def connect(**options):
+        board = board_factory(**options)
+        helpers.connect(server, board)
+        return board
+
+    yield connect
+    helpers.disconnect(server)
+
+
+def arrived(server, board, *lines):
+    """Return what has arrived of the lines, and of an M118 behind them."""
+    before = len(board.board.received())
+    started = time.monotonic()
+    server.commands(*lines, 'M118 P1 S"through"')
+    server.wait_for(
+        lambda: any(text.startswith("M118") for text in helpers.commands(board)[before:]),
+        10,
+        "the line behind",
+    )
+    assert time.monotonic() - started < 10
+    # what comes from OctoPrint and the plugin at any time
+    own = ("M409", "M105", "M118", "M27", "M20 S3")
+    return [text for text in helpers.commands(board)[before:] if not text.startswith(own)]
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["M111", 'M111 P3 S1 ; "what is it"', "M155 S2", "M113 S2", "M154 S1", "M410", "; nothing"],
+)
+def test_never_sent(server, connected, line):
+    board = connected()
+    assert arrived(server, board, line) == []
+
+
+@pytest.mark.parametrize(
+    "line", ['M291 P"hello" S1', 'M291 P"S2 in the text"', "M111 S1", "G4 P1", 'M98 P"none.g"']
+)
+def test_sent_as_it_is(server, connected, line):
+    board = connected()
+    assert arrived(server, board, line) == [line]
+
+
+@pytest.mark.parametrize("firmware, is_sent", [("3.4", True), ("3.5.3", False), ("3.6", False)])
+def test_blocking_box_by_firmware(server, connected, firmware, is_sent):
+    board = connected(firmware=firmware)
+    with PushListener(server, ADMIN) as push:
+        # from here on the login counts
+        push.wait_for_plugin(bool)
+        assert arrived(server, board, BLOCKING_BOX) == ([BLOCKING_BOX] if is_sent else [])
+        if not is_sent:
+            notice = push.wait_for_plugin(lambda found: found.get("code") == "message_box")
+            assert "Is it S1 there?" in notice["text"]
+
+
+def test_switched_off(server, connected):
+    board = connected()
+    server.set_setting("plugins.rrfmodel.operations", {"probes": False})
+    try:
+        assert arrived(server, board, "M155 S2") == ["M155 S2"]
+    finally:
+        server.set_setting("plugins.rrfmodel.operations", {"probes": True})
+
+
+def resume(server):
+    response = server.post("/api/job", json={"command": "pause", "action": "resume"})
+    assert response.status_code == 204, response.text
+
+
+def dwells(board):
+    """Return what has come of the lines that each place of a file is known by."""
+    return [text for text in helpers.commands(board) if text.startswith("G4")]
+
+
+def test_streamed(server, connected):
+    """A print goes through with all of them in it, and pauses where a person is to act."""
+    board = connected()
+    board.board.inject("usb_box_stuck")
+    stops = ["M0", BLOCKING_BOX, "M1"]
+    lines = ["M111", "M155 S1", "; comment"]
+    for number, stop in enumerate(stops):
+        lines += [f"G4 P{number}", stop]
+    server.upload("odd.gcode", "\n".join([*lines, f"G4 P{len(stops)}"]) + "\n")
+    with PushListener(server, ADMIN) as push:
+        # from here on the login counts
+        push.wait_for_plugin(bool)
+        server.select_and_print("odd.gcode")
+        for number, stop in enumerate(stops):
+            server.wait_state("Paused", 20)
+            # nothing goes out behind the place
+            assert dwells(board) == [f"G4 P{before}" for before in range(number + 1)]
+            if stop == BLOCKING_BOX:
+                told = server.wait_for(lambda: paused(server), 5, "the warning")[0]
+                assert told["values"] == {"next": "answer", "message": "Is it S1 there?"}
+            else:
+                server.wait_for(lambda: not paused(server), 5, "the end of the warning")
+            resume(server)
+        server.wait_state("Operational", 20)
+        assert len(push.events("PrintPaused")) == len(stops)
+        (notice,) = [found for found in push.of_plugin() if found.get("code") == "print_paused"]
+        assert '"Is it S1 there?"' in notice["text"]
+        assert "resume the print" in notice["text"]
+    assert dwells(board) == [f"G4 P{number}" for number in range(len(stops) + 1)]
+    sent = {text.split()[0] for text in helpers.commands(board) if text}
+    assert not {"M111", "M291", "M155", "M0", "M1", "@pause"} & sent
+
+
+def test_box_that_can_be_answered_goes_out_in_a_print(server, connected):
+    board = connected(firmware="3.4")
+    server.upload("box.gcode", f"G4 P1\n{BLOCKING_BOX}\nG4 P2\n")
+    server.select_and_print("box.gcode")
+    server.wait_for(lambda: dwells(board) == ["G4 P1", "G4 P2"], 20, "the lines of the file")
+    assert BLOCKING_BOX in helpers.commands(board)
+    server.wait_state("Operational", 20)
+
+
+def paused(server):
+    """Return the warnings that say why the print is paused."""
+    found = helpers.status(server)["warnings"]
+    return [warning for warning in found if warning["code"] == "print_paused"]
+
+
+def box_warning(server):
+    codes = [found["code"] for found in helpers.status(server)["warnings"]]
+    return "message_box_unanswerable" in codes
+
+
+@pytest.mark.parametrize("firmware, is_told", [("3.5.3", True), ("3.4", False)])
+def test_box_that_waits_on_the_line(server, connected, firmware, is_told):
+    board = connected(firmware=firmware)
+    usb = board.board.channels["USB"]
+    usb.awaits_acknowledgement = True
+    if is_told:
+        server.wait_for(lambda: box_warning(server), 5, "the warning")
+    else:
+        helpers.wait_polls(server, 2)
+        assert not box_warning(server)
+    usb.awaits_acknowledgement = False
+    server.wait_for(lambda: not box_warning(server), 5, "the end of the warning")
+
+
+def test_box_of_a_macro_that_holds_the_line(server, connected):
+    """No reply can tell of it: the text does."""
+    board = connected()
+    server.commands("G4 S6")
+    server.wait_for(lambda: helpers.status(server)["blocked"], 5, "the command to begin")
+    board.board.message("- Look -\nIs it there?\nSend M292 to continue\n")
+    server.wait_for(lambda: box_warning(server), 3, "the warning")
+    assert server.wait_for(lambda: not box_warning(server), 15, "the end of the warning")

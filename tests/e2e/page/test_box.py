@@ -1,0 +1,277 @@
+"""Message boxes on the page: each mode answered, closed elsewhere, for those who may only look."""
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.basedir import ADMIN, READER
+from tests.support.browser import open_octoprint
+
+from .. import helpers
+from . import board_value, own_errors, part, wait_text
+
+pytestmark = pytest.mark.timeout(240)
+
+MARKUP = "<img src=x onerror=alert(1)>"
+
+
+BOARD = {"machine": "cartesian"}
+
+
+@pytest.fixture(autouse=True)
+def _no_box(board):
+    yield
+    while board_value(board, "state.messageBox") is not None:
+        board.board.execute("M292 P1", channel="telnet")
+
+
+@pytest.fixture
+def box(page, server):
+    open_octoprint(page, server, ADMIN)
+    return page.locator("#rrfmodel_box_dialog")
+
+
+def ask(board, parameters, channel="http"):
+    board.board.execute(f"M291 {parameters}", channel=channel)
+
+
+def is_closed(server, board, box):
+    expect(box).to_be_hidden(timeout=15_000)
+    server.wait_for(
+        lambda: board_value(board, "state.messageBox") is None, 10, "the board to close its box"
+    )
+    return True
+
+
+@pytest.mark.parametrize("mode", [1, 2, 3])
+def test_is_shown_and_closed(box, server, board, page_errors, mode):
+    ask(board, f'P"Is it {mode}?" R"Title" S{mode} T0')
+    wait_text(part(box, "box-message"), f"Is it {mode}?")
+    wait_text(part(box, "box-title"), "Title")
+    expect(part(box, "box-cancel")).to_be_visible(visible=mode == 3)
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+    assert own_errors(page_errors) == []
+
+
+def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
+    ask(board, 'P"Wait" S0 T20')
+    wait_text(part(box, "box-message"), "Wait")
+    expect(part(box, "box-time")).to_have_text(re.compile(r"^Closes by itself in \d+ s$"))
+    expect(box.locator("button:visible")).to_have_text(["Put aside"])
+    assert 1 <= int(re.findall(r"\d+", part(box, "box-time").inner_text())[0]) <= 20
+    expect(box).to_be_hidden(timeout=40_000)
+    assert is_closed(server, board, box)
+
+
+def test_cancel_by_escape(page, box, server, board):
+    ask(board, 'P"Sure?" S3')
+    wait_text(part(box, "box-message"), "Sure?")
+    expect(part(box, "box-ok")).to_be_enabled()
+    page.keyboard.press("Escape")
+    assert is_closed(server, board, box)
+
+
+@pytest.mark.parametrize("key", ["Escape", "Enter"])
+def test_key_for_something_else_answers_nothing(page, box, server, board, key):
+    page.evaluate(
+        """(key) => $("#rrfmodel_box_dialog").one("shown", () => {
+            const event = new KeyboardEvent("keydown", {key: key, bubbles: true});
+            document.activeElement.dispatchEvent(event);
+            window.wasPressed = true;
+            if (key === "Enter") $("#rrfmodel_box_dialog form").trigger("submit");
+        })""",
+        key,
+    )
+    ask(board, 'P"Is the bed clear?" S3')
+    wait_text(part(box, "box-message"), "Is the bed clear?")
+    expect(part(box, "box-ok")).to_be_enabled()
+    helpers.wait_polls(server, 2)
+    assert page.evaluate("window.wasPressed") is True
+    assert board_value(board, "state.messageBox.message") == "Is the bed clear?"
+    # and the focus is on no button
+    assert page.evaluate("document.activeElement.tagName") == "H3"
+
+
+def test_answer_locks_until_there_is_news(page, box, server, board):
+    """What is pressed twice must not answer the next box."""
+    ask(board, 'P"First" S3')
+    ask(board, 'P"Second" S3', "aux")
+    wait_text(part(box, "box-message"), "First")
+    expect(part(box, "box-ok")).to_be_enabled()
+    is_locked = page.evaluate(
+        """() => {
+            const ok = document.querySelector("#rrfmodel_box_dialog [data-test=box-ok]");
+            ok.click();
+            ok.click();
+            return ok.disabled;
+        }"""
+    )
+    assert is_locked
+    wait_text(part(box, "box-message"), "Second")
+    # whoever works with the keyboard is in the next box
+    expect(box.locator("h3")).to_be_focused()
+    helpers.wait_polls(server, 2)
+    assert board_value(board, "state.messageBox.message") == "Second"
+
+
+def test_the_reply_about_one_box_does_not_unlock_the_next(page, server, board):
+    page.clock.install()
+    open_octoprint(page, server, ADMIN)
+    box = page.locator("#rrfmodel_box_dialog")
+    ask(board, 'P"First" S3')
+    ask(board, 'P"Second" S3', "aux")
+    wait_text(part(box, "box-message"), "First")
+    held = []
+    page.route("**/api/plugin/rrfmodel", lambda route: held.append(route))
+    part(box, "box-ok").click()
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the answer")
+    first = held[0]
+    reply = first.fetch()
+    wait_text(part(box, "box-message"), "Second")
+    # the next one is answered, then the reply about the first comes
+    part(box, "box-ok").click()
+    server.wait_for(lambda: page.wait_for_timeout(20) or held[1:], 15, "the second answer")
+    with page.expect_response("**/api/plugin/rrfmodel"):
+        first.fulfill(response=reply)
+    # the page knows of it, and of the time after which it would unlock
+    helpers.wait_polls(server, 2)
+    page.clock.fast_forward(6_000)
+    expect(part(box, "box-ok")).to_be_disabled()
+    assert len(held) == 2
+
+
+def test_put_aside_and_shown_again(page, box, server, board):
+    ask(board, f'P"Look at it" R"{MARKUP}" S2')
+    wait_text(part(box, "box-message"), "Look at it")
+    part(box, "box-aside").click()
+    expect(box).to_be_hidden()
+    again = page.locator("[data-test=box-again]")
+    expect(again).to_contain_text(MARKUP)
+    # the page behind it can be used
+    page.locator("#temp_link a").click()
+    helpers.wait_polls(server, 2)
+    expect(box).to_be_hidden()
+    assert board_value(board, "state.messageBox.message") == "Look at it"
+    again.click()
+    expect(box).to_be_visible()
+    expect(again).to_be_hidden()
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+
+
+def test_put_aside_and_answered_elsewhere(page, box, server, board):
+    ask(board, 'P"Look at it" S2')
+    wait_text(part(box, "box-message"), "Look at it")
+    part(box, "box-aside").click()
+    board.board.execute("M292", channel="telnet")
+    expect(page.locator("[data-test=box-again]")).to_be_hidden(timeout=15_000)
+    # the next one comes by itself
+    ask(board, 'P"Another" S2')
+    wait_text(part(box, "box-message"), "Another")
+    expect(box).to_be_visible()
+
+
+def test_what_can_not_be_cancelled_stays(page, box, server, board):
+    ask(board, 'P"Read this" S2')
+    wait_text(part(box, "box-message"), "Read this")
+    page.keyboard.press("Escape")
+    helpers.wait_polls(server, 2)
+    assert box.is_visible()
+    assert board_value(board, "state.messageBox.mode") == 2
+
+
+def test_choices(box, server, board):
+    ask(board, 'P"Which?" S4 K{"one", "two", "three"} F1')
+    wait_text(part(box, "box-message"), "Which?")
+    choices = part(box, "box-choice")
+    expect(choices).to_have_text(["one", "two", "three"])
+    expect(choices.nth(1)).to_have_class("btn btn-primary")
+    # whoever goes there by the keyboard stays there
+    expect(choices.nth(2)).to_be_enabled()
+    choices.nth(2).focus()
+    helpers.wait_polls(server, 3)
+    expect(choices.nth(2)).to_be_focused()
+    choices.nth(2).click()
+    assert is_closed(server, board, box)
+    assert any("R{2}" in line or "R2" in line for line in sent(server))
+
+
+def sent(server):
+    return [line for line in server.sent() if "M292" in line]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "wrong", "right", "goes_out"),
+    [
+        ("S5 L1 H9 F4", ["0", "10", "2.5", ""], "7", "7"),
+        ("S6 L0.5 H2.5 F1", ["0.4", "3", ""], "1.25", "1.25"),
+        ('S7 L2 H5 F"abc"', ["a", "abcdef"], "half", "half"),
+    ],
+    ids=["integer", "number", "text"],
+)
+def test_values_within_limits(page, box, server, board, parameters, wrong, right, goes_out):
+    ask(board, f'P"How much?" {parameters}')
+    wait_text(part(box, "box-message"), "How much?")
+    field = part(box, "box-value")
+    expect(field).to_have_value(re.compile("^(4|1|abc)$"))
+    before = len(sent(server))
+    for value in wrong:
+        field.fill(value)
+        part(box, "box-ok").click()
+        wait_text(part(box, "box-error"), "not a value")
+        # which the next one has to give its own reason for
+        page.evaluate("OctoPrint.coreui.viewmodels.rrfModelBoxViewModel.error('')")
+    helpers.wait_polls(server, 1)
+    assert len(sent(server)) == before
+    field.fill(right)
+    field.press("Enter")
+    assert is_closed(server, board, box)
+    assert goes_out in sent(server)[-1]
+
+
+def test_closes_when_answered_elsewhere_and_the_next_one_comes(box, server, board):
+    ask(board, 'P"First" S2')
+    ask(board, 'P"Second" S2', "aux")
+    wait_text(part(box, "box-message"), "First")
+    board.board.execute("M292", channel="telnet")
+    wait_text(part(box, "box-message"), "Second")
+    board.board.execute("M292", channel="telnet")
+    assert is_closed(server, board, box)
+
+
+def test_axes_are_moved(box, server, board):
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    ask(board, 'P"Jog" S2 Z1')
+    wait_text(part(box, "box-axis"), "Z")
+    before = board_value(board, "move.axes[2].machinePosition")
+    box.get_by_label("Move Z by 1 mm").click()
+    server.wait_for(
+        lambda: abs(board_value(board, "move.axes[2].machinePosition") - before - 1) < 0.01,
+        15,
+        "the move",
+    )
+    part(box, "box-ok").click()
+    assert is_closed(server, board, box)
+
+
+def test_who_may_not_control_sees_and_can_not_answer(page, server, board):
+    open_octoprint(page, server, READER)
+    box = page.locator("#rrfmodel_box_dialog")
+    ask(board, 'P"Look" S5 L1 H9')
+    wait_text(part(box, "box-message"), "Look")
+    wait_text(part(box, "box-readonly"), "not answer")
+    controls = box.locator("button:visible:not([data-test=box-aside]), input:visible")
+    expect(controls).not_to_have_count(0)
+    for control in controls.all():
+        expect(control).to_be_disabled()
+
+
+def test_text_of_the_printer_is_text(box, server, board, page_errors):
+    ask(board, f'P"{MARKUP}" R"{MARKUP}" S4 K{{"{MARKUP}", "b"}}')
+    wait_text(part(box, "box-message"), MARKUP)
+    wait_text(part(box, "box-choice").first, MARKUP)
+    assert box.locator("img").count() == 0
+    assert own_errors(page_errors) == []

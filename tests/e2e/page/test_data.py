@@ -1,0 +1,141 @@
+"""The page's data in whatever order they come: replies that are late, and pushes before them."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.basedir import ADMIN
+from tests.support.browser import open_octoprint
+
+from .. import helpers
+from . import own_errors, part
+
+pytestmark = pytest.mark.timeout(240)
+
+BOARD = {"machine": "cartesian"}
+
+
+class Held:
+    """Requests of a page whose replies are kept back, as a slow line would."""
+
+    def __init__(self, page, url, server):
+        self._page = page
+        self._url = url
+        self._server = server
+        self._answered = []
+        self._is_open = False
+        page.route(url, self._keep)
+
+    def _keep(self, route):
+        if self._is_open:
+            route.continue_()
+        else:
+            self._answered.append((route, route.fetch()))
+
+    def wait(self):
+        """Return once the server has answered such a request."""
+        # the page's requests are seen while Playwright is at work
+        self._server.wait_for(
+            lambda: self._page.wait_for_timeout(20) or self._answered, 30, "the request"
+        )
+
+    def release(self):
+        """Let the replies through, and all later ones at once."""
+        self._is_open = True
+        for route, response in self._answered:
+            with self._page.expect_response(self._url):
+                route.fulfill(response=response)
+
+
+@pytest.fixture
+def page_of(page, server):
+    open_octoprint(page, server, ADMIN)
+    return page
+
+
+def reload(page):
+    page.reload()
+    page.locator("#page-container-loading").wait_for(state="hidden", timeout=60_000)
+
+
+def test_pushed_values_are_newer_than_the_model_that_comes_late(
+    page_of, server, board, page_errors
+):
+    board.board.execute('M117 "old"', channel="http")
+    helpers.wait_value(server, "state.displayMessage", "old", 15)
+    held = Held(page_of, "**/plugin/rrfmodel/model?*", server)
+    reload(page_of)
+    held.wait()
+    message = part(page_of, "message").first
+    board.board.execute('M117 "new"', channel="http")
+    expect(message).to_have_text("new")
+    # what has not changed since comes with the model alone
+    expect(part(page_of, "axis")).to_have_count(0)
+    held.release()
+    expect(part(page_of, "axis")).to_have_count(3)
+    expect(message).to_have_text("new")
+    assert own_errors(page_errors) == []
+
+
+def test_a_late_state_does_not_take_the_machine_away(page, server, board, page_errors):
+    helpers.disconnect(server)
+    held = Held(page, "**/plugin/rrfmodel/status", server)
+    open_octoprint(page, server, ADMIN)
+    held.wait()
+    helpers.connect(server, board)
+    expect(part(page, "axis")).to_have_count(3)
+    held.release()
+    helpers.wait_polls(server, 3)
+    expect(part(page, "axis")).to_have_count(3)
+    expect(part(page, "status").first).to_have_text("Idle")
+    assert own_errors(page_errors) == []
+
+
+def test_what_was_missed_while_the_socket_was_away_is_asked_for(page_of, page_errors):
+    expect(part(page_of, "axis")).to_have_count(3)
+    with page_of.expect_response("**/plugin/rrfmodel/model?*") as answered:
+        page_of.evaluate("OctoPrint.socket.socket.close(3000)")
+    assert answered.value.ok
+    expect(page_of.locator("#offline_overlay")).to_be_hidden()
+    expect(part(page_of, "axis")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_messages_kept_until_somebody_logs_in_are_no_news(page_of, server, page_errors):
+    expect(part(page_of, "axis")).to_have_count(3)
+    notices = page_of.locator(".ui-pnotify:visible .ui-pnotify-text")
+    page_of.evaluate(
+        """() => {
+            const page = OctoPrint.coreui.viewmodels.rrfModelViewModel;
+            const now = page.status();
+            const before = Object.assign({}, now, {at: now.at - 3600, is_rrf: false});
+            const told = (message) => page.onDataUpdaterPluginMessage("rrfmodel", message);
+            told({type: "notice", code: "old", text: "An old notice.", at: before.at});
+            told({type: "reset", status: before});
+            told({type: "notice", code: "new", text: "A new notice.", at: now.at + 0.001});
+        }"""
+    )
+    expect(notices.filter(has_text="A new notice.")).to_have_count(1)
+    expect(notices.filter(has_text="An old notice.")).to_have_count(0)
+    expect(part(page_of, "axis")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_a_model_that_the_server_did_not_have_is_asked_for_again(page, server, page_errors):
+    page.clock.install()
+    page.route(
+        "**/plugin/rrfmodel/model?*",
+        lambda route: route.fulfill(status=503, json={"error": "Not yet."}),
+        times=1,
+    )
+    answers = []
+    page.on(
+        "response",
+        lambda response: "/rrfmodel/model?" in response.url and answers.append(response.status),
+    )
+    open_octoprint(page, server, ADMIN)
+    # the page sees the refusal a little later than this test does
+    server.wait_for(
+        lambda: page.clock.fast_forward(6_000) or 200 in answers, 30, "the second question"
+    )
+    assert answers[0] == 503
+    expect(part(page, "axis")).to_have_count(3)

@@ -1,0 +1,302 @@
+"""The sub-view Machine, below: sensors, boards, files; each control used on the board."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.basedir import ADMIN, READER
+
+from .. import helpers
+from . import board_value, own_errors, part, type_number, wait_board, wait_text
+from . import open_view as open_machine
+
+pytestmark = pytest.mark.timeout(240)
+
+
+MARKUP = "<img src=x onerror=alert(1)>"
+
+BOARD = {"machine": "corexy", "speed": 20}
+
+
+def prepare(board):
+    board.card.write("0:/macros/<u>More/Park.g", "M117 parked\n")
+
+
+def opened(page, server, user):
+    open_machine(page, server, user, "machine")
+    return page.locator("#rrfmodel_machine_parts")
+
+
+@pytest.fixture
+def view(page, server):
+    return opened(page, server, ADMIN)
+
+
+def test_what_there_is_to_see(view, board, page_errors):
+    data = board.board.data
+    endstops = [found for found in data["sensors"]["endstops"] if found]
+    probes = [found for found in data["sensors"]["probes"] if found]
+    expect(part(view, "endstop")).to_have_count(len(endstops), timeout=15_000)
+    expect(part(view, "probe")).to_have_count(len(probes))
+    boards = part(view, "board")
+    expect(boards).to_have_count(len(data["boards"]))
+    wait_text(boards.first, data["boards"][0]["firmwareVersion"])
+    wait_text(boards.first, "V")
+    wait_text(part(view, "kinematics"), data["move"]["kinematics"]["name"])
+    address = data["network"]["interfaces"][0]["actualIP"]
+    expect(part(view, "link")).to_have_attribute("href", f"http://{address}/")
+    wait_text(part(view, "volume").first, "free")
+    assert own_errors(page_errors) == []
+
+
+def test_mesh(view, server, board, page_errors):
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    part(view, "mesh-probe").click()
+    wait_board(server, board, "move.compensation.type", "mesh", 60)
+    wait_text(part(view, "mesh-type"), "mesh")
+    part(view, "mesh-clear").click()
+    wait_board(server, board, "move.compensation.type", "none", 20)
+    sent_before = len(helpers.commands(board))
+    part(view, "calibrate").click()
+    server.wait_for(
+        lambda: "G32" in helpers.commands(board)[sent_before:], 20, "the bed to be levelled"
+    )
+    part(view, "mesh-load").click()
+    wait_board(server, board, "move.compensation.type", "mesh", 20)
+    assert own_errors(page_errors) == []
+
+
+def sent(server):
+    return server.sent()
+
+
+def test_macros(page, view, server, board, page_errors):
+    part(view, "macros").click()
+    macros = part(view, "macro")
+    expect(macros).to_have_text(["<u>More", "Ask first", "Say hello"], timeout=15_000)
+    macros.last.click()
+    server.wait_for(
+        lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 10, "the macro to be run"
+    )
+    assert own_errors(page_errors) == []
+
+
+def test_macros_in_a_folder(view, server, page_errors):
+    part(view, "macros").click()
+    expect(part(view, "macro-up")).to_be_hidden()
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "0:/macros/<u>More")
+    expect(part(view, "macro")).to_have_count(1)
+    part(view, "macro").click()
+    run = 'M98 P"0:/macros/<u>More/Park.g"'
+    server.wait_for(lambda: run in "\n".join(sent(server)), 10, "the macro to be run")
+    part(view, "macro-up").click()
+    expect(part(view, "macro")).to_have_count(3)
+    assert own_errors(page_errors) == []
+
+
+def test_a_double_click_on_a_folder_runs_no_macro(view, server):
+    part(view, "macros").click()
+    expect(part(view, "macro")).to_have_count(3)
+    before = len(sent(server))
+    # the folder's content is known, so that it comes at once
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "More")
+    part(view, "macro-up").click()
+    expect(part(view, "macro")).to_have_count(3)
+    part(view, "macro").first.dblclick()
+    wait_text(part(view, "macro-path"), "More")
+    helpers.wait_polls(server, 2)
+    assert not [line for line in sent(server)[before:] if "M98" in line]
+
+
+def test_text_of_the_machine_is_never_markup(view, board, page_errors):
+    data = board.board.data
+    before = data["boards"][0]["name"], data["network"]["name"]
+    try:
+        data["boards"][0]["name"] = "<b>board</b>"
+        data["network"]["name"] = "<img src=x onerror=alert(1)>"
+        board.board.bump("boards")
+        board.board.bump("network")
+        wait_text(part(view, "board").first, "<b>board</b>")
+        wait_text(view, "<img src=x onerror=alert(1)>")
+        assert view.locator("b, img").count() == 0
+    finally:
+        data["boards"][0]["name"], data["network"]["name"] = before
+        board.board.bump("boards")
+        board.board.bump("network")
+    assert own_errors(page_errors) == []
+
+
+def test_monitor_that_reports_a_fault(view, board):
+    monitor = board.board.data["sensors"]["filamentMonitors"][0]
+    label = part(view, "monitor").first.locator(".label")
+    expect(label).to_have_class("label label-success")
+    before = monitor["status"]
+    try:
+        monitor["status"] = "tooLittleMovement"
+        board.board.bump("sensors")
+        wait_text(label, "too little movement")
+        expect(label).to_have_class("label label-important")
+    finally:
+        monitor["status"] = before
+        board.board.bump("sensors")
+    wait_text(label, "ok")
+
+
+def test_filaments(view, server, board):
+    board.board.execute("T0", channel="http")
+    helpers.wait_value(server, "state.currentTool", 0, 20)
+    part(view, "filaments").click()
+    part(view, "load").first.wait_for()
+    view.get_by_role("button", name="Load PLA").click()
+    wait_board(server, board, "move.extruders[0].filament", "PLA", 30)
+    helpers.wait_value(server, "move.extruders[0].filament", "PLA", 20)
+    part(view, "unload").click()
+    assert wait_board(server, board, "move.extruders[0].filament", "", 30) == ""
+
+
+def test_power(page, view, server, board):
+    board.board.execute('M80 C"pson"', channel="http")
+    board.board.execute("M81", channel="http")
+    part(view, "power-on").click()
+    wait_board(server, board, "state.atxPower", True)
+    wait_text(part(view, "power-state"), "on")
+    part(view, "power-off").click()
+    # OctoPrint's dialogs have links for buttons
+    page.locator(".modal.in .modal-footer .btn-danger").get_by_text("Switch off").click()
+    wait_board(server, board, "state.atxPower", False)
+    board.board.data["state"].update(atxPower=None, atxPowerPort=None)
+    board.board.bump("state")
+    expect(part(view, "power")).to_be_hidden(timeout=15_000)
+
+
+def test_board_of_another_version(view, board):
+    boards = board.board.data["boards"]
+    count = len(boards)
+    label = part(view, "board").last.get_by_text("differs")
+
+    def add(version):
+        with board.board.lock:
+            boards[count:] = [{**boards[0], "firmwareVersion": version, "canAddress": 20}]
+            board.board.bump("boards")
+        expect(part(view, "board")).to_have_count(count + 1, timeout=20_000)
+        wait_text(part(view, "board").last, version)
+
+    try:
+        # two builds of one version go together
+        add(boards[0]["firmwareVersion"] + "+2")
+        expect(label).to_be_hidden()
+        add("3.4.6")
+        expect(label).to_be_visible()
+    finally:
+        with board.board.lock:
+            del boards[count:]
+            board.board.bump("boards")
+    expect(part(view, "board")).to_have_count(count, timeout=20_000)
+
+
+def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):
+    with board.board.lock:
+        data = board.board.data
+        data["move"]["shaping"].update(type="zvd", frequency=42.5)
+        data["move"]["extruders"][0]["pressureAdvance"] = 0.04
+        data["sensors"]["gpIn"] = [None, {"value": 1}]
+        data["state"]["gpOut"] = [{"freq": 500, "pwm": 0.4}]
+        data["sensors"]["analog"][0].update(name=MARKUP, lastReading=31.5)
+        for key in ("move", "sensors", "state"):
+            board.board.bump(key)
+    wait_text(part(view, "motion-shaping"), "zvd 42.5 Hz")
+    wait_text(part(view, "motion-pressure"), "0.040 s")
+    wait_text(part(view, "motion-workplace"), "G54")
+    wait_text(part(view, "motion-running"), "0:")
+    expect(part(view, "input")).to_have_text(["Input 11"])
+    expect(part(view, "output")).to_have_text(["Output 040 %"])
+    wait_text(part(view, "sensor").first, MARKUP)
+    board.board.execute("G59.2", channel="http")
+    wait_text(part(view, "motion-workplace"), "G59.2")
+    board.board.execute("G54", channel="http")
+    # a move has a speed while it lasts
+    board.board.execute("G28", channel="http")
+    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    board.board.execute("G1 X10 F6000", channel="http")
+    board.board.execute("G1 X200 F300", channel="http")
+    wait_text(part(view, "motion-requested"), "5.0 mm/s")
+    assert own_errors(page_errors) == []
+
+
+def test_who_may_only_read_can_only_look(page, server):
+    view = opened(page, server, READER)
+    part(view, "filaments").click()
+    part(view, "load").first.wait_for()
+    part(view, "macros").click()
+    part(view, "macro").first.click()
+    wait_text(part(view, "macro-path"), "More")
+    looking = {"macros", "filaments", "macro-up"}
+    controls = view.locator("button:visible, input:visible").all()
+    enabled = {control.get_attribute("data-test") for control in controls if control.is_enabled()}
+    assert enabled == looking
+    assert len(controls) > len(looking) + 4
+
+
+def test_spindle(page, module_server_factory, module_board_factory):
+    board = module_board_factory(machine="cnc", speed=20)
+    server = module_server_factory()
+    helpers.connect(server, board)
+    view = opened(page, server, ADMIN)
+    spindle = part(view, "spindle")
+    expect(spindle).to_have_count(1, timeout=15_000)
+    type_number(part(spindle, "rpm"), 8000)
+    wait_board(server, board, "spindles[0].active", 8000)
+    wait_board(server, board, "spindles[0].state", "forward")
+    # one that somebody else has turned round goes on as it turns
+    board.board.execute("M4 P0 S500", channel="http")
+    expect(part(spindle, "reverse")).to_be_checked(timeout=15_000)
+    type_number(part(spindle, "rpm"), 700)
+    wait_board(server, board, "spindles[0].active", 700)
+    assert board_value(board, "spindles[0].state") == "reverse"
+    part(spindle, "reverse").uncheck()
+    type_number(part(spindle, "rpm"), 900)
+    wait_board(server, board, "spindles[0].state", "forward")
+    part(spindle, "reverse").check()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].state", "reverse")
+    part(spindle, "stop").click()
+    wait_board(server, board, "spindles[0].state", "stopped")
+    expect(part(spindle, "reverse")).not_to_be_checked(timeout=15_000)
+    # and in the mode for it a laser is shown
+    expect(part(view, "laser")).to_be_hidden()
+    with board.board.lock:
+        board.board.data["state"]["machineMode"] = "Laser"
+        board.board.data["move"]["currentMove"]["laserPwm"] = 0.5
+        board.board.bump("state")
+    wait_text(part(view, "laser"), "50 %")
+
+
+def test_direction_of_a_spindle_that_is_chosen_before_the_last_speed_is_answered(
+    page, module_server_factory, module_board_factory
+):
+    board = module_board_factory(machine="cnc", speed=20)
+    server = module_server_factory()
+    helpers.connect(server, board)
+    spindle = part(opened(page, server, ADMIN), "spindle")
+    reverse = part(spindle, "reverse")
+    held = []
+    page.route(
+        "**/api/plugin/rrfmodel",
+        lambda route: held.append((route, route.fetch())),
+        times=1,
+    )
+    type_number(part(spindle, "rpm"), 900)
+    # what is held is seen while Playwright is at work
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the speed to be sent")
+    wait_board(server, board, "spindles[0].state", "forward")
+    reverse.check()
+    route, answer = held[0]
+    with page.expect_response("**/api/plugin/rrfmodel"):
+        route.fulfill(response=answer)
+    wait_text(part(spindle, "current"), "900")
+    expect(reverse).to_be_checked()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].active", 6000)
+    assert board_value(board, "spindles[0].state") == "reverse"

@@ -1,0 +1,129 @@
+"""A print goes through to its end, line by line, while the model is kept fresh."""
+
+import re
+
+import pytest
+
+from tests.support.basedir import ADMIN
+from tests.support.push import PushListener
+
+from .. import helpers
+
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
+
+LINES = 5000
+PRINT_SECONDS = 150
+
+# so that OctoPrint soon finds out that an ok was lost
+SHORT_TIMEOUTS = {
+    "timeout": {
+        "communication": 2,
+        "communicationBusy": 2,
+        "temperature": 1,
+        "temperatureTargetSet": 1,
+    }
+}
+
+PLUGIN_LINE = re.compile(r"M409|M105$")
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory):
+    return module_server_factory(serial=SHORT_TIMEOUTS)
+
+
+def distinct_moves(count, first=0):
+    """Return so many lines, each another one, of about ten milliseconds each."""
+    return [
+        f"G1 X{20 + number % 2:d}.{number % 100:02d} Y{20 + number // 100:d} F6000"
+        for number in range(first, first + count)
+    ]
+
+
+def answers_in_order(server):
+    """Return the plugin's requests and the replies to them since OctoPrint connected last."""
+    found = []
+    # what an earlier board was asked last may never have been answered
+    connection = server.serial_log().rpartition('to "Connecting"')[2]
+    for line in connection.splitlines():
+        if match := re.search(r" - (?:Send: |>>> )(?:N\d+ )?(M409[^*]*)", line):
+            found.append(("asked", match[1]))
+        elif match := re.search(r' - (?:Recv: |<<< )(\{"key":"[^"]*","flags":"[^"]*")', line):
+            found.append(("answered", match[1]))
+    return found
+
+
+def assert_one_request_at_a_time(server):
+    """Every request of this connection was answered before the next one left."""
+    order = answers_in_order(server)
+    assert len(order) > 40
+    for (kind, what), (following, next_what) in zip(order, order[1:]):
+        assert kind != following, f"two in a row: {what}, {next_what}"
+
+
+def print_through(server, board, lines, name):
+    """Print the lines and return what the plugin's counters grew by."""
+    server.upload(name, "\n".join(lines) + "\n")
+    before = helpers.status(server)["counters"]
+    with PushListener(server, ADMIN) as push:
+        server.select_and_print(name)
+        seen = set()
+
+        def is_done():
+            seen.add(helpers.status(server)["blocked"])
+            seen.discard(None)
+            return push.events("PrintDone") or push.events("PrintFailed")
+
+        server.wait_for(is_done, PRINT_SECONDS, "the end of the print")
+        assert push.events("PrintFailed") == []
+        assert push.events("Error") == []
+    server.wait_state("Operational")
+    job = server.job()
+    assert job["progress"]["completion"] == 100
+    counters = helpers.status(server)["counters"]
+    return {key: counters[key] - before[key] for key in counters}
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        pytest.param(None, id="clean"),
+        pytest.param("extra_ok", id="extra_ok"),
+        # one of so many replies: a stall of two seconds each
+        pytest.param("lost_ok:1201", id="lost_ok"),
+    ],
+)
+def test_print(server, board_factory, fault):
+    board = board_factory(speed=2)
+    helpers.connect(server, board)
+    server.commands("G28")
+    helpers.wait_value(server, "move.axes[].homed", [True] * 3, 20)
+    if fault:
+        board.board.inject(fault)
+    start = len(board.board.received())
+    lines = distinct_moves(LINES)
+    assert len(set(lines)) == LINES
+    grown = print_through(server, board, lines, f"{fault or 'clean'}.gcode".replace(":", "-"))
+
+    def moves():
+        return [command for command in helpers.commands(board)[start:] if command[:3] == "G1 "]
+
+    # with an ok too many OctoPrint is ahead of the board by what the line's buffers hold
+    server.wait_for(lambda: len(moves()) >= LINES, 30, "the last line to arrive")
+    assert moves() == lines
+    sent = helpers.commands(board)[start:]
+    assert helpers.polls_without_status(sent) == []
+    # an ok too many makes OctoPrint fill the line's buffers, and answers come the later
+    assert grown["polls"] >= 3
+    assert grown["replies"] >= 3
+    assert_one_request_at_a_time(server)
+    assert grown["timeouts"] == grown["malformed"] == 0
+    # nothing went out among the lines but what OctoPrint and the plugin ask
+    during = sent[sent.index(lines[0]) :]
+    other = {command for command in during if not PLUGIN_LINE.match(command)} - set(lines)
+    assert {command.split()[0] for command in other} <= {"M110", "M400"}
+
+    if fault:
+        board.board.clear(fault.partition(":")[0])
+    server.wait_for(lambda: not helpers.status(server)["stale"], 20, "fresh data")
+    helpers.wait_equal(server, board, 10)

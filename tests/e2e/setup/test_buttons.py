@@ -1,0 +1,80 @@
+"""The buttons of the page: what they do, and that only those see them who may press them."""
+
+import pytest
+from playwright.sync_api import expect
+
+from octoprint_rrfmodel.rrf.card.wording import ROWS as WORDING
+from octoprint_rrfmodel.rrf.gcode.operations import ROWS as OPERATIONS
+from octoprint_rrfmodel.rrf.gcode.unsendable import ROWS as UNSENDABLE
+from octoprint_rrfmodel.rrf.views.warnings import GUARDS
+from tests.support.basedir import ADMIN, OPERATOR
+from tests.support.browser import open_octoprint
+
+from .. import helpers
+
+pytestmark = pytest.mark.timeout(240)
+
+
+@pytest.fixture(scope="module")
+def server(module_server_factory):
+    return module_server_factory()
+
+
+@pytest.fixture
+def board(server, board_factory):
+    board = board_factory()
+    helpers.connect(server, board)
+    yield board
+    helpers.disconnect(server)
+
+
+def warnings(server):
+    return [found["code"] for found in helpers.status(server)["warnings"]]
+
+
+SWITCHES = {
+    "operations": [row.name for row in (*OPERATIONS, *UNSENDABLE)],
+    "replies": [row.name for row in WORDING],
+    "guard": list(GUARDS),
+}
+
+
+@pytest.mark.parametrize("group", SWITCHES)
+def test_each_row_has_a_switch_that_is_on(server, group):
+    rows = SWITCHES[group]
+    settings = server.get("/api/settings").json()["plugins"]["rrfmodel"]
+    assert settings[group] == dict.fromkeys(rows, True)
+    with server.session(ADMIN) as session:
+        page = session.get("/").text
+    for row in rows:
+        assert f'"checked: settings.plugins.rrfmodel.{group}.{row}"' in page, row
+
+
+def test_settings(server, board, page, page_errors):
+    open_octoprint(page, server, ADMIN)
+    page.locator("[data-test=advice]").first.wait_for(timeout=30_000)
+    assert page.locator("[data-test=advice]").count() == len(warnings(server))
+    # advice pops up nowhere
+    assert page.locator(".ui-pnotify-text", has_text="upper case").count() == 0
+    page.locator("[data-test=fix]").click()
+    page.locator("[data-test=advice]").first.wait_for(state="detached", timeout=15_000)
+    assert warnings(server) == []
+    assert page_errors == []
+    server.post("/api/plugin/rrfmodel", json={"command": "restore_settings"})
+
+
+def test_only_for_those_who_may(server, board, page):
+    open_octoprint(page, server, OPERATOR)
+    page.locator("[data-test=advice]").first.wait_for(timeout=30_000)
+    assert page.locator("[data-test=fix]").count() == 0
+
+
+@pytest.mark.parametrize("button", ["[data-test=fix]", ".ui-pnotify .btn-primary"])
+def test_restart(server, board, page, button):
+    open_octoprint(page, server, OPERATOR)
+    server.post("/api/printer/command", json={"command": "M112"})
+    server.wait_disconnected()
+    page.locator(button).click(timeout=20_000)
+    server.wait_for(lambda: not board.board.is_halted, 20, "the restart")
+    server.wait_state("Operational", 30)
+    expect(page.locator("[data-test=warning]")).to_have_count(0, timeout=20_000)

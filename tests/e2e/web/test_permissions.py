@@ -1,0 +1,178 @@
+"""Who may do what: every endpoint, for everybody who may ask, in every way to say who one is."""
+
+import pytest
+import websocket
+
+from tests.support.basedir import ADMIN, OPERATOR, READER
+from tests.support.push import PushListener
+
+from .. import helpers
+
+BASE = "/plugin/rrfmodel"
+SIMPLE = "/api/plugin/rrfmodel"
+
+READ = "read"
+CONTROL = "control"
+SETTINGS = "settings"
+
+# method, path, body, what it needs, the status for who has that
+ENDPOINTS = [
+    ("GET", f"{BASE}/status", None, READ, 200),
+    ("GET", SIMPLE, None, READ, 200),
+    ("GET", f"{BASE}/model", None, READ, 200),
+    ("GET", f"{BASE}/model/live?key=state.upTime", None, READ, 200),
+    ("GET", f"{BASE}/history", None, READ, 200),
+    ("GET", f"{BASE}/meanings", None, READ, 200),
+    ("GET", f"{BASE}/files?path=0:/macros", None, READ, 200),
+    # nobody has put a picture there
+    ("GET", f"{BASE}/thumbnail?path=square.gcode", None, READ, 404),
+    ("GET", f"{BASE}/setup", None, SETTINGS, 200),
+    ("GET", f"{BASE}/metrics", None, READ, 200),
+    ("GET", f"{BASE}/openapi.json", None, READ, 200),
+    ("GET", f"{BASE}/printer/objects/list", None, READ, 200),
+    ("GET", f"{BASE}/printer/objects/query?toolhead", None, READ, 200),
+    ("POST", f"{BASE}/printer/objects/query", {"objects": {"toolhead": None}}, READ, 200),
+    ("GET", f"{BASE}/printer/info", None, READ, 200),
+    ("GET", f"{BASE}/server/info", None, READ, 200),
+    ("GET", f"{BASE}/server/gcode_store", None, READ, 200),
+    ("POST", f"{BASE}/printer/gcode/script", {"script": "M117 table"}, CONTROL, 200),
+    ("POST", SIMPLE, {"command": "fan", "fan": 0, "speed": 0.5}, CONTROL, 204),
+    ("POST", SIMPLE, {"command": "refresh"}, CONTROL, 204),
+    ("POST", SIMPLE, {"command": "restore_settings"}, SETTINGS, 204),
+    ("POST", SIMPLE, {"command": "wizard_done"}, SETTINGS, 204),
+    ("POST", SIMPLE, {"command": "fix_settings"}, SETTINGS, 204),
+]
+
+MAY = {
+    None: (),
+    READER: (READ,),
+    OPERATOR: (READ, CONTROL),
+    ADMIN: (READ, CONTROL, SETTINGS),
+}
+
+
+BOARD = {}
+
+
+@pytest.fixture
+def open_to_guests(server):
+    group = server.get("/api/access/groups/guests").json()
+    permissions = [*group["permissions"], "PLUGIN_RRFMODEL_READ"]
+    response = server.put("/api/access/groups/guests", json={**group, "permissions": permissions})
+    assert response.status_code == 200, response.text
+    yield server
+    server.put("/api/access/groups/guests", json=group)
+
+
+def ask(client, endpoint, **options):
+    method, path, body, _, _ = endpoint
+    return client.request(method, path, json=body, **options)
+
+
+def assert_refused(response, status=403):
+    assert response.status_code == status, response.text
+    assert response.json()["error"]
+    assert set(response.json()) == {"error"}
+
+
+@pytest.fixture(params=ENDPOINTS, ids=lambda row: f"{row[0]} {row[1]} {row[2] or ''}")
+def endpoint(request):
+    return request.param
+
+
+@pytest.mark.parametrize("user", [ADMIN, OPERATOR, READER], ids=lambda user: user.name)
+@pytest.mark.parametrize("way", ["client", "session"])
+def test_user_with_key_and_session(server, endpoint, user, way):
+    with getattr(server, way)(user) as client:
+        response = ask(client, endpoint)
+    if endpoint[3] in MAY[user]:
+        assert response.status_code == endpoint[4], response.text
+    else:
+        assert_refused(response)
+
+
+@pytest.mark.parametrize("user", [ADMIN, READER], ids=lambda user: user.name)
+def test_session_without_token(server, endpoint, user):
+    with server.session(user) as client:
+        client.headers.pop("X-CSRF-Token", None)
+        response = ask(client, endpoint)
+    if endpoint[0] == "POST":
+        # OctoPrint's own check comes first
+        assert response.status_code == 400, response.text
+    elif endpoint[3] in MAY[user]:
+        assert response.status_code == endpoint[4], response.text
+    else:
+        assert_refused(response)
+
+
+def test_nobody(server, endpoint):
+    with server.client() as client:
+        response = ask(client, endpoint)
+    if endpoint[0] == "POST":
+        assert response.status_code == 400, response.text
+    else:
+        assert_refused(response)
+
+
+def test_nobody_with_a_token(server, endpoint):
+    with server.client() as client:
+        client.take_token()
+        assert_refused(ask(client, endpoint))
+
+
+def test_unknown_key(server, endpoint):
+    with server.client() as client:
+        client.take_token()
+        response = ask(client, endpoint, headers={"X-Api-Key": "nonsense"})
+    assert_refused(response)
+
+
+def test_guest_where_guests_may_read(open_to_guests, endpoint):
+    with open_to_guests.client() as client:
+        response = ask(client, endpoint)
+    if endpoint[0] == "POST":
+        assert response.status_code == 400, response.text
+    elif endpoint[3] == READ:
+        assert response.status_code == endpoint[4], response.text
+    else:
+        assert_refused(response)
+
+
+def test_guest_with_a_token_where_guests_may_read(open_to_guests, endpoint):
+    with open_to_guests.client() as client:
+        client.take_token()
+        response = ask(client, endpoint)
+    if endpoint[3] == READ:
+        assert response.status_code == endpoint[4], response.text
+    else:
+        assert_refused(response)
+
+
+def test_socket_is_for_those_with_credentials(open_to_guests):
+    address = open_to_guests.url.replace("http", "ws", 1) + f"{BASE}/websocket"
+    socket = websocket.WebSocket()
+    with pytest.raises(websocket.WebSocketBadStatusException) as refused:
+        socket.connect(address, timeout=10)
+    socket.shutdown()
+    assert refused.value.status_code == 403
+
+
+def test_no_refused_command_reached_the_printer(server, board):
+    before = len(board.board.received())
+    for user in (None, READER):
+        with server.client(user) as client:
+            for row in ENDPOINTS:
+                if row[3] == CONTROL:
+                    assert ask(client, row).status_code in (400, 403)
+    helpers.wait_polls(server, 2)
+    sent = helpers.commands(board)[before:]
+    assert not [line for line in sent if line.startswith(("M106", "M117"))]
+
+
+def test_push_reaches_only_who_has_the_permission(server):
+    with PushListener(server, READER) as reader, PushListener(server, None) as nobody:
+        message = reader.wait_for_plugin(lambda data: data["type"] == "model")
+        helpers.wait_polls(server, 3)
+        assert set(message["changed"]) & {"state", "heat", "seqs", "move"}
+        assert message["status"]["connected"] is True
+        assert nobody.of_plugin() == []

@@ -1,0 +1,112 @@
+"""What is kept of what was said on the line, in the words of both OctoPrints' logs."""
+
+import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from any side
+import pytest
+
+from octoprint_rrfmodel.host.tags import STATUS_TAG
+from octoprint_rrfmodel.web.moonraker.gcode_store import MOST_LINES, GcodeStore
+
+POLL = 'M409 K"" F"d99fin"'
+
+FORMS = {"1.11": ("Send: ", "Recv: "), "2.0": (">>> ", "<<< ")}
+
+
+class Store:
+    """A store with its line: ``>`` goes to the printer, ``<`` comes from it."""
+
+    def __init__(self, form):
+        self.responded = []
+        self.is_rrf = True
+        self.store = GcodeStore(
+            lambda: self.is_rrf, lambda command: command == POLL, self.responded.append
+        )
+        self.out, self.into = FORMS[form]
+
+    def log(self, *lines):
+        for line in lines:
+            prefix = self.out if line[0] == ">" else self.into
+            self.store.on_printer_add_log(prefix + line[1:])
+
+    def kept(self):
+        return [(entry["type"], entry["message"]) for entry in self.store.latest(MOST_LINES)]
+
+
+@pytest.fixture(params=FORMS)
+def line(request):
+    return Store(request.param)
+
+
+def test_commands_and_responses(line):
+    line.store.sent("M115", {"trigger:printer.commands"})
+    line.log(">M115", "<FIRMWARE_NAME: RepRapFirmware", "<ok")
+    assert line.kept() == [("command", "M115"), ("response", "FIRMWARE_NAME: RepRapFirmware")]
+    assert line.responded == ["FIRMWARE_NAME: RepRapFirmware"]
+    assert all(entry["time"] > 0 for entry in line.store.latest(2))
+
+
+@pytest.mark.parametrize("said", ["<ok", "<", "<wait", "<ok T:20.1 /0.0 B:20.2 /0.0", "<T0:20.1"])
+def test_what_nobody_asked_for_is_left_out(line, said):
+    line.log(said)
+    assert line.kept() == line.responded == []
+
+
+@pytest.mark.parametrize("number", ["", "N17 "])
+def test_polls_are_left_out(line, number):
+    checksum = "*71" if number else ""
+    line.log(f">{number}{POLL}{checksum}", '<{"key":"","flags":"d99fin","result":{}}', "<", "<ok")
+    line.log(f">{number}M105{checksum}", "<ok T:20.1 /0.0 B:20.2 /0.0")
+    assert line.kept() == line.responded == []
+
+
+def test_reply_to_somebody_else_s_m409_is_kept(line):
+    line.log('>M409 K"heat"', '<{"key":"heat","flags":"","result":{}}', "<ok")
+    assert line.responded == ['{"key":"heat","flags":"","result":{}}']
+
+
+@pytest.mark.parametrize(
+    "tag", ["trigger:comm.poll_temperature", "trigger:comm.poll_sd_status", STATUS_TAG]
+)
+def test_automatic_commands_are_left_out(line, tag):
+    line.store.sent("M105", {tag})
+    line.log(">M105", "<ok T:20.1 /0.0")
+    assert line.kept() == []
+
+
+def test_temperatures_that_somebody_asked_for_come_once(line):
+    report = "ok T:20.1 /0.0"
+    line.store.sent("M105", {"trigger:printer.commands"})
+    line.log(">M105", "<" + report, "<" + report)
+    assert line.kept() == [("command", "M105"), ("response", report)]
+
+
+def test_asking_by_itself_ends_the_wait_for_temperatures(line):
+    line.store.sent("M105", {"trigger:printer.commands"})
+    line.store.sent("M105", {"trigger:comm.poll_temperature"})
+    line.log("<ok T:20.1 /0.0")
+    assert line.responded == []
+
+
+def test_lines_of_a_print_are_no_commands(line):
+    line.log(">N5 G1 X1 Y2*33", "<ok", ">N6 M106 S1*3", "<ok")
+    assert line.kept() == []
+
+
+@pytest.mark.parametrize("count, kept", [(0, 0), (1, 1), (5, 5), (10, 5)])
+def test_latest(line, count, kept):
+    for number in range(5):
+        line.log(f"<line {number}")
+    found = [entry["message"] for entry in line.store.latest(count)]
+    assert found == [f"line {number}" for number in range(5)][5 - kept :]
+
+
+def test_nothing_is_kept_of_another_firmware(line):
+    line.is_rrf = False
+    line.log("<FIRMWARE_NAME:Marlin")
+    assert line.kept() == line.responded == []
+
+
+def test_the_oldest_go(line):
+    for number in range(MOST_LINES + 3):
+        line.log(f"<line {number}")
+    assert len(line.kept()) == MOST_LINES
+    assert line.kept()[0] == ("response", "line 3")
