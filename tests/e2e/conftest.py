@@ -1,17 +1,38 @@
 """Fixtures of end-to-end tests: a module's server with its board, or one machine at a time."""
 
+from importlib.metadata import version
+from pathlib import Path
+
 import pytest
 
 from . import helpers
 from .operations import PROFILE, SETUPS, Machine
 
+HERE = Path(__file__).parent
 
-def pytest_collection_modifyitems(items):
-    """The tests of a module on the same machine one after the other: each is connected once."""
+
+def pytest_collection_modifyitems(config, items):
+    """In 1.11 only what differs there; a module's tests on one machine one after the other."""
+    _leave_to_the_newer_host(config, items)
     places = [number for number, item in enumerate(items) if "machines" in item.fixturenames]
     ordered = sorted((items[place] for place in places), key=_module_and_machine)
     for place, item in zip(places, ordered):
         items[place] = item
+
+
+def _leave_to_the_newer_host(config, items):
+    """Deselect in 1.11 what is the same in both hosts, and is tested in 2.0."""
+    if not version("OctoPrint").startswith("1."):
+        return
+    left = [item for item in items if HERE in item.path.parents and not _runs_in_both(item)]
+    if left:
+        config.hook.pytest_deselected(items=left)
+        kept = set(left)
+        items[:] = [item for item in items if item not in kept]
+
+
+def _runs_in_both(item):
+    return item.get_closest_marker("both_hosts") is not None
 
 
 def _module_and_machine(item):

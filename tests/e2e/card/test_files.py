@@ -6,6 +6,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the card")
+
 FILES = "/plugin/rrfmodel/files"
 THUMBNAIL = "/plugin/rrfmodel/thumbnail"
 

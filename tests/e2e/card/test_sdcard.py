@@ -10,6 +10,8 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the card")
+
 FILES = {
     "square.gcode": "0:/gcodes/square.gcode",
     "Two layers.gcode": "0:/gcodes/Two layers.gcode",

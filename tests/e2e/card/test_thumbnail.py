@@ -9,6 +9,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the card")
+
 THUMBNAIL = "/plugin/rrfmodel/thumbnail"
 
 

@@ -6,6 +6,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 MACHINES = ("cartesian", "corexy", "toolchanger", "delta", "idex", "cnc", "manyaxes")
 
 # firmware → the version that it reports

@@ -4,6 +4,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 
 @pytest.fixture(scope="module", params=["3.5.3", "3.3"])
 def board(request, server, module_board_factory):

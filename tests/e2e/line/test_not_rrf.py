@@ -11,6 +11,8 @@ from tests.support.push import PushListener
 from .. import helpers
 from ..operations import AS_OCTOPRINT, PROFILE
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 PORT = "VIRTUAL"
 LINES = ["G28", "M104 S45", "G1 X10 F6000", "G1 X20", "G1 X30 Y5", "M104 S0", "M117 end"]
 

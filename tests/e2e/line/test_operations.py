@@ -11,6 +11,8 @@ from tests.support.push import PushListener
 from .. import helpers
 from ..operations import AS_OCTOPRINT, on
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 MOVED = on(
     "one tool 2.05",
     "one tool 3.3",

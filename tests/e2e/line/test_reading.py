@@ -9,6 +9,8 @@ from tests.support.basedir import OPERATOR, READER
 from ..printer_bench import Bench
 from ..printer_requests import HOME, JOG, OFFSET, SCRIPT, TARGET, By, name_of, rows
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 
 @pytest.fixture(scope="module")
 def bench(module_server_factory, module_board_factory):

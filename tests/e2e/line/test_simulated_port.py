@@ -4,6 +4,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 PORT = "RRF-SIM"
 
 

@@ -6,6 +6,8 @@ import pytest
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 BAUD = 115200
 SHARE = 0.05
 WATCHED_SECONDS = 60

@@ -9,6 +9,8 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
+pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
 TYPED = 'M409 K"move.axes[0].letter" F""'
 OWN = re.compile(r'M409|M408|\{"key"')
 
