@@ -12,7 +12,10 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = pytest.mark.timeout(180)
+pytestmark = [
+    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.timeout(180),
+]
 
 
 @pytest.fixture(scope="module")

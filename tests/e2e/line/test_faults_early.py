@@ -4,7 +4,10 @@ import pytest
 
 from .. import helpers
 
-pytestmark = pytest.mark.timeout(180)
+pytestmark = [
+    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.timeout(180),
+]
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,11 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
+pytestmark = [
+    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.slow,
+    pytest.mark.timeout(240),
+]
 
 HEATING_SECONDS = 14
 """More than twice what OctoPrint waits in all."""

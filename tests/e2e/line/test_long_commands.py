@@ -4,7 +4,11 @@ import pytest
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(120)]
+pytestmark = [
+    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.slow,
+    pytest.mark.timeout(120),
+]
 
 FIRMWARE = ("3.5.1", "3.5.3")
 SECONDS = 7

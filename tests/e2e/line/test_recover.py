@@ -9,7 +9,11 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
+pytestmark = [
+    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.slow,
+    pytest.mark.timeout(240),
+]
 
 RECOVER_SECONDS = 40
 

@@ -9,7 +9,11 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
+pytestmark = [
+    pytest.mark.both_hosts("each streams and pauses with its own code"),
+    pytest.mark.slow,
+    pytest.mark.timeout(300),
+]
 
 PAUSE_SECONDS = 6
 """Polls are at least two seconds apart while OctoPrint prints."""

@@ -9,7 +9,11 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
+pytestmark = [
+    pytest.mark.both_hosts("each streams and pauses with its own code"),
+    pytest.mark.slow,
+    pytest.mark.timeout(300),
+]
 
 LINES = 5000
 PRINT_SECONDS = 150

@@ -12,7 +12,10 @@ from tests.support.browser import open_octoprint
 
 from .. import helpers
 
-pytestmark = pytest.mark.timeout(240)
+pytestmark = [
+    pytest.mark.both_hosts("settings of the serial line lie in different places"),
+    pytest.mark.timeout(240),
+]
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,11 @@ from tests.support.basedir import ADMIN, DISABLED_PLUGINS, OPERATOR, is_version_
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(240)]
+pytestmark = [
+    pytest.mark.both_hosts("settings of the serial line lie in different places"),
+    pytest.mark.slow,
+    pytest.mark.timeout(240),
+]
 
 PROFILE = "/api/printerprofiles/_default"
 
