@@ -1,7 +1,9 @@
-"""The parts of the plugin, put together, and what happens between them.
+"""Every part of the plugin made once, from the ground up, and who is told of what.
 
-A line comes in by ``comm`` and goes by the worker and ``polling`` to ``rrf.follower``, whose news
-``_on_reply`` hands to all that show them.
+A line comes in by ``link.serial.received`` and goes by the worker and ``link.poller`` to
+``rrf.follow.follower``; what it did is told to the listeners, in the order of ``_listeners``. A
+command goes by ``control.machine_commands`` or OctoPrint's own operations to
+``link.serial.queued``.
 """
 
 import time
@@ -9,263 +11,289 @@ from functools import partial
 
 from octoprint.events import Events
 
-from .guard.protection import Protection
-from .host.tags import POLL_TAG
-from .host.warning_texts import notice_text
+from .control.machine_commands import MachineCommands
+from .control.rate import Rate
+from .guard.message_boxes import MessageBoxes
+from .guard.notifications import Notifications
+from .guard.print_guard import PrintGuard
+from .guard.recovery import Recovery
+from .guard.warning_list import WarningList
+from .host.notes import NOTES
+from .host.request_checks import RequestChecks
+from .host.setup import Setup
 from .integrations.helpers import Helpers
-from .integrations.other_plugins import Neighbours
+from .integrations.octoprint_events import MachineEvents
+from .integrations.other_plugins import OtherPlugins
+from .integrations.plugin_subscribers import PluginSubscribers
+from .link.known import Known
+from .link.listeners import Listeners
 from .link.poller import Poller
-from .link.serial.comm import CommBridge
+from .link.questions import LiveQuestions
 from .link.serial.display import Display
 from .link.serial.operation_translator import OperationTranslator
+from .link.serial.queued import QueuedCommands
+from .link.serial.received import ReceivedLines
 from .link.serial.sdcard import SdCard
 from .link.serial.sdjob import SdJob
 from .link.serial.sdupload import UploadRefusal
+from .link.serial.sent import SentCommands
+from .link.serial.serial_link import SerialLink
 from .link.serial.simulated_port import SimulatedPort
 from .link.serial.terminal import TerminalFilter
 from .link.serial.unsendable_commands import UnsendableCommands
+from .link.status import PluginStatus
 from .link.worker import Worker
 from .rrf.card.listing import CardPlan
 from .rrf.follow.follower import Follower
-from .rrf.views.machine import Machine
-from .rrf.views.temperatures import temperatures
+from .web.commands_api import PluginCommands
 from .web.history_api import MachineHistory
-from .web.live_api import LiveQuestions
 from .web.model_api import ModelApi
-from .web.moonraker.interfaces import Interfaces
+from .web.moonraker.moonraker import Moonraker
 from .web.push import ModelPush
-from .web.status import PluginStatus
-from .web.thumbnail_api import Thumbnails
 
 
-class Parts:
-    """Makes the parts and hands on what happens; ``host`` is OctoPrint (``host.Host``)."""
+class Assembly:
+    """Makes the parts, floor by floor; ``host`` is OctoPrint (``host.host.Host``)."""
 
     def __init__(self, host):
-        clock = self._clock = time.monotonic
         self._host = host
+        self._clock = time.monotonic
+        self._make_ground()
+        self._make_guard()
+        self._make_card_and_poller()
+        self._make_control()
+        self._make_web()
+        self._make_integrations()
+        self._make_hooks()
+        self._listeners.attach(self._table_of_listeners())
+        self.worker.attach(self._notes(), self._listeners.ticks())
+
+    def _make_ground(self):
+        """Make what all else asks: the link, what is known of the machine, the worker."""
+        host = self._host
+        self.worker = Worker("rrfmodel.worker")
+        self._listeners = Listeners()
+        self.link = SerialLink(host.printer, host.profiles, self._clock)
         self._follower = Follower()
-        self.protection = Protection(
+        self._known = Known(self._follower, self.link, self._clock)
+        self.model = self._known.model
+        self._notifications = Notifications(host.tell_pages, self._clock)
+        self.setup = Setup(host, self.link, self._known)
+        """What the settings page and the first-run wizard show."""
+
+    def _make_guard(self):
+        host, model = self._host, self._known.model
+        self._boxes = MessageBoxes(model, self._clock)
+        self._guard = PrintGuard(
             host.printer,
-            host.profiles,
-            host.settings,
-            host.folder,
-            lambda: self.bridge,
-            self._machine,
-            self._notice,
-            lambda: self._card.end_job(),
-            lambda key: self.worker.notify("look", key),
-            lambda: self._follower.ready,
-            clock,
+            self.link.has_a_print,
+            model,
+            is_on=host.is_set,
+            tell=self._notifications.tell,
         )
-        self.worker = Worker(
-            {
-                "identified": self._on_identified,
-                "disconnected": self._on_disconnected,
-                "poll_sent": lambda at: self._poller.poll_sent(at),
-                "status_sent": lambda: self._poller.status_sent(),
-                "reply": lambda text: self._poller.reply(text),
-                "refused": lambda line: self._poller.refused(line),
-                "refused_operation": self._notice,
-                "heard": self._on_heard,
-                "said": self._on_said,
-                "look": lambda key: self._poller.look(key),
-                "send": self._send_lines,
-                **self.protection.handlers,
-            },
-            [
-                lambda: self._poller.tick(),
-                lambda: self._push.tick(),
-                lambda: self.interfaces.tick(),
-                lambda: self.history.tick(),
-            ],
+        self._recovery = Recovery(
+            host.printer,
+            self.link,
+            self._known.machine,
+            failed=self._notifications.did_not_come_back,
         )
-        refused = partial(self.worker.notify, "refused_operation")
-        is_translated = partial(host.is_set, "operations")
-        self._operations = OperationTranslator(self._machine, is_translated, refused)
-        self._unsendable = UnsendableCommands(
-            self._machine, is_translated, refused, partial(self.worker.notify, "print_waits")
+        self._warnings = WarningList(
+            model,
+            self.link,
+            self._guard,
+            recovery=self._recovery,
+            boxes=self._boxes,
+            problems=self.setup.problems,
         )
-        self.display = Display(lambda: self.bridge.connection, self._known_temperatures, host.fire)
+
+    def _make_card_and_poller(self):
+        known = self._known
+        job = SdJob(known.model, known.is_current, self.link.send, clock=self._clock)
         self._card = SdCard(
             CardPlan(),
-            SdJob(self._model, self._is_current, lambda line: host.printer().commands(line), clock),
-            lambda: self.bridge.connection,
-            self._model,
-            self._operations.translate,
-            partial(host.is_set, "replies"),
+            job,
+            self.link,
+            model=known.model,
+            is_reworded=partial(self._host.is_set, "replies"),
         )
-        self.bridge = CommBridge(
-            self.worker.notify,
-            self._translate,
-            self._card,
-            self.display.show_target,
-            self._unsendable.instead,
-            self.protection.guard.handles,
-            lambda command, tags: self.interfaces.store.sent(command, tags),
-            clock,
-        )
-        self.uploads = UploadRefusal(lambda: self.bridge.is_rrf)
+        self.link.attach(self._card)
         self._poller = Poller(
-            self._follower, self._card, self.bridge, self._send, self._on_reply, clock
+            self._follower,
+            self._card,
+            self.link,
+            known=known,
+            replied=self._listeners.replied,
+            clock=self._clock,
         )
-        self.history = MachineHistory(self._model, self._poller.is_stale)
+
+    def _make_control(self):
+        self._rate = Rate(self._clock)
+        self._commands = MachineCommands(
+            self.link,
+            self._known.machine,
+            self._boxes,
+            recovery=self._recovery,
+            look=partial(self.worker.notify, "look"),
+            rate=self._rate,
+        )
+        self.questions = LiveQuestions(self._poller, self.link)
+
+    def _make_web(self):
+        host, model = self._host, self._known.model
         self.status = PluginStatus(
             host.version,
-            self.bridge,
+            self.link,
             self._poller,
-            self._follower,
-            lambda: host.printer().is_operational(),
-            lambda: [*self.protection.advice(), *self.neighbours.warnings()],
-            self.protection.setup.is_first_run,
-            clock,
+            known=self._known,
+            warnings=self._all_warnings,
+            is_first_run=self.setup.is_first_run,
         )
-        self.interfaces = Interfaces(
+        self.api = ModelApi(model, self.status, self.link)
+        self.history = MachineHistory(model, self._poller.is_stale)
+        self._push = ModelPush(host.tell_pages, model, self.status, clock=self._clock)
+        self.commands = PluginCommands(self._commands, self.setup)
+        self.moonraker = Moonraker(
             host,
             self._follower,
-            self.bridge,
-            self.protection.machine.rate,
-            self.worker.notify,
-            clock,
+            self.link,
+            notify=self.worker.notify,
+            rate=self._rate,
+            clock=self._clock,
         )
-        self.neighbours = Neighbours(
-            host.plugins,
-            host.settings,
-            host.printer,
-            lambda: self.bridge,
-            self._model,
-            self.status,
-            self.protection.machine.command,
-            clock,
-        )
-        self._push = ModelPush(host.tell_pages, self._model, self.status, clock)
-        self.api = ModelApi(self._model, self.status)
-        self.questions = LiveQuestions(
-            self._poller, self.bridge, self._follower, self.api.why_empty
+
+    def _make_integrations(self):
+        host, model = self._host, self._known.model
+        self._events = MachineEvents(host.fire, self._known)
+        self._plugin_subscribers = PluginSubscribers(host.plugins, model)
+        self.other_plugins = OtherPlugins(
+            host,
+            self.link,
+            model,
+            status=self.status,
+            command=self._commands.command,
+            clock=self._clock,
         )
         self.helpers = Helpers(
-            self._model,
-            self.interfaces.audience,
+            model,
+            self._plugin_subscribers.subscribe,
             self.questions,
-            self.protection.machine.command,
-            self.status,
-            self.interfaces.objects,
+            command=self._commands.command,
+            status=self.status,
+            objects=self.moonraker.objects,
         )
-        self.terminal = TerminalFilter(
-            lambda: self.bridge.has_polled_at_all() and host.is_set("hide_polls"),
-            self.bridge.has_polled,
+
+    def _make_hooks(self):
+        host, notify = self._host, self.worker.notify
+        refused = partial(notify, "refused_operation")
+        is_translated = partial(host.is_set, "operations")
+        operations = OperationTranslator(self._known.machine, is_translated, refused)
+        unsendable = UnsendableCommands(
+            self._known.machine, is_translated, refused, paused=partial(notify, "print_waits")
         )
-        self.simulated_port = SimulatedPort(lambda: host.settings().get(["simulator"], merged=True))
+        self.display = Display(self.link, self._known, self._poller.is_stale, fire=host.fire)
+        self.received = ReceivedLines(self.link, self._card, notify, guards=self._guard.handles)
+        self.queued = QueuedCommands(
+            self.link,
+            notify,
+            unsendable.instead,
+            translators=(
+                self.other_plugins.prompt.translate,
+                self._card.translate,
+                operations.translate,
+            ),
+        )
+        self.sent = SentCommands(
+            self.link,
+            notify,
+            self._clock,
+            show_target=self.display.show_target,
+            sent=self.moonraker.store.sent,
+        )
+        self.uploads = UploadRefusal(self.link)
+        self.terminal = TerminalFilter(host.is_set, self.link)
+        self.simulated_port = SimulatedPort(host.simulator)
+        self.refusals = [
+            self.uploads.refuse,
+            self._guard.refuse,
+            RequestChecks(self.link).refuse,
+            self.commands.refuse,
+        ]
+        """What looks at requests to OctoPrint's API."""
+
+    def _table_of_listeners(self):
+        """Return who is told, in order; all by the worker's thread.
+
+        The guard comes first: it looks at the model before the poller forgets it, and pauses
+        before anybody is shown why. The sockets come last, for then this thread has nothing more
+        to do that they would wait for.
+        """
+        return (
+            self._recovery,
+            self._boxes,
+            self._guard,
+            self.link,
+            self._poller,
+            self._push,
+            self.other_plugins,
+            self._card,
+            self.display,
+            self.setup.settings,
+            self._notifications,
+            self.history,
+            self.moonraker.objects,
+            self._events,
+            self._plugin_subscribers,
+            self.moonraker.sockets,
+        )
+
+    def _notes(self):
+        """Return what the worker does for each note: name to handler."""
+        poller, guard = self._poller, self._guard
+        return {
+            "identified": self._listeners.identified,
+            "disconnected": self._listeners.forgotten,
+            "line": self._listeners.line,
+            "heard": self._listeners.heard,
+            "reply": poller.reply,
+            "refused": poller.refused,
+            "poll_sent": poller.poll_sent,
+            "poll_acknowledged": poller.poll_acknowledged,
+            "look": poller.look,
+            "send": self.link.send,
+            "refused_operation": self._notifications.tell,
+            "halted": self._recovery.halted,
+            "print_paused": guard.paused,
+            "print_resumed": guard.resumed,
+            "print_waits": guard.waits_for,
+            "print_bound": guard.forgotten,
+            "settings_updated": self.setup.settings.look,
+        }
+
+    def _all_warnings(self):
+        return [*self._warnings(), *self.other_plugins.warnings()]
+
+    ##~~ OctoPrint's life
 
     def start(self):
         """Begin to work: OctoPrint is up."""
         self.worker.start()
-        self.neighbours.start()
-        self.interfaces.start()
+        self.other_plugins.start()
+        self.moonraker.start()
+        self._plugin_subscribers.start()
 
     def stop(self):
         """End all threads."""
-        self.interfaces.stop()
-        self.neighbours.stop()
+        self._plugin_subscribers.stop()
+        self.other_plugins.stop()
         self.worker.stop()
 
     def on_event(self, event, payload):
         """Hand on what OctoPrint says of its connection and its prints."""
         # events come late: by now another connection may be up, which brings its own beginning
-        if event == Events.DISCONNECTED and not self._host.printer().is_operational():
-            self.bridge.forget()
+        if event == Events.DISCONNECTED and not self.link.is_operational:
+            self.link.forget()
             self.worker.notify("disconnected")
-        self.interfaces.on_event(event, payload)
-        note = self.protection.note_of(event)
-        if note and self.bridge.is_rrf:
+        self.moonraker.job.on_event(event, payload)
+        note = NOTES.get(event)
+        if note and self.link.is_rrf:
             self.worker.notify(note)
-
-    def on_firmware_info(self, comm, firmware_name, data, *args, **kwargs):
-        """Keep what the firmware says of itself, and find out whether it is RepRapFirmware."""
-        self.status.reported(data)
-        self.bridge.on_firmware_info(comm, firmware_name, data)
-
-    def thumbnails(self):
-        """Return what fetches pictures, for Tornado's loop."""
-        return Thumbnails(self.questions, self._model)
-
-    ##~~ what the parts ask of each other
-
-    def _model(self):
-        return self._follower.store.model
-
-    def _is_current(self):
-        return self._poller.asked_at > self.bridge.settled_at and not self._follower.behind
-
-    def _machine(self):
-        return Machine(self._model(), self._is_current())
-
-    def _known_temperatures(self):
-        model = self._model()
-        known = temperatures(model) if "heat" in model else None
-        knows_targets = self._poller.asked_at > self.bridge.target_command_at
-        return known, not self._poller.is_stale(), knows_targets
-
-    def _translate(self, cmd, gcode, tags):
-        answer = self.neighbours.translate(cmd, gcode)
-        return answer or self._card.translate(cmd, gcode, tags)
-
-    def _send(self, line):
-        self._host.printer().commands(line, tags={POLL_TAG})
-
-    def _send_lines(self, lines, tags, force):
-        self._host.printer().commands(lines, tags=tags, force=force)
-
-    def _notice(self, code, detail):
-        text = notice_text(code, detail)
-        notice = {"type": "notice", "code": code, "detail": detail, "text": text}
-        self._host.tell_pages({**notice, "at": round(self._clock(), 3)})
-
-    ##~~ on the worker
-
-    def _on_reply(self, taken, asked_at):
-        self._show(taken, asked_at)
-        self.history.replied()
-        # last, for then this thread has nothing more to do that sockets would wait for
-        self.interfaces.replied(taken)
-
-    def _on_said(self, line):
-        self.history.heard(line)
-        self.interfaces.heard(line)
-
-    def _show(self, taken, asked_at):
-        if taken.reset:
-            self._push.forgotten()
-            self.neighbours.forgotten()
-            self.protection.guard.board_was_reset()
-            self._notice("board_reset", "")
-            return
-        self._push.changed(taken.changes)
-        self.neighbours.changed(taken.changes)
-        self._card.on_news()
-        tool = self._model().get("state", {}).get("currentTool")
-        # what was asked for before OctoPrint's own last tool command says nothing about it
-        if isinstance(tool, int) and self._poller.asked_at > self.bridge.tool_command_at:
-            self.display.follow_tool(tool)
-        self.protection.replied(asked_at)
-
-    def _on_heard(self, what):
-        if what == "card":
-            self._poller.card_refused()
-            return
-        self.protection.heard(what)
-        self._poller.hurry()
-
-    def _on_identified(self):
-        self._on_disconnected()
-        self._card.identified()
-        self.protection.identified()
-        self._poller.start()
-
-    def _on_disconnected(self):
-        self.protection.disconnecting()
-        self._poller.stop()
-        self._push.forgotten()
-        self.history.forgotten()
-        self.interfaces.forgotten()
-        self.neighbours.forgotten()

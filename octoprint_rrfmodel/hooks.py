@@ -7,13 +7,13 @@ from .integrations.octoprint_events import custom_events
 def hooks_of(plugin):
     """Return OctoPrint's hooks and who handles them; early, so that others see clean lines."""
     parts = plugin.parts
-    bridge, port = parts.bridge, parts.simulated_port
+    port, received = parts.simulated_port, parts.received
     return {
-        "octoprint.comm.protocol.gcode.received": (bridge.on_received, 1),
-        "octoprint.comm.protocol.gcode.queuing": bridge.on_queuing,
-        "octoprint.comm.protocol.gcode.sending": bridge.on_sending,
-        "octoprint.comm.protocol.gcode.error": bridge.on_error,
-        "octoprint.comm.protocol.firmware.info": parts.on_firmware_info,
+        "octoprint.comm.protocol.gcode.received": (received.on_received, 1),
+        "octoprint.comm.protocol.gcode.queuing": parts.queued.on_queuing,
+        "octoprint.comm.protocol.gcode.sending": parts.sent.on_sending,
+        "octoprint.comm.protocol.gcode.error": received.on_error,
+        "octoprint.comm.protocol.firmware.info": received.on_firmware_info,
         "octoprint.comm.protocol.temperatures.received": parts.display.on_temperatures,
         "octoprint.comm.transport.serial.factory": port.open,
         "octoprint.comm.transport.serial.additional_port_names": port.names,

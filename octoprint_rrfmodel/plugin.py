@@ -5,15 +5,15 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 from octoprint.events import eventManager
 
-from .assembly import Parts
-from .guard.protection import DISABLED_PLUGIN
+from .assembly import Assembly
 from .host.host import Host
+from .host.notes import DISABLED_PLUGIN
 from .host.plugin_settings import DEFAULTS, VERSION
 from .web.assets import ASSETS
 from .web.endpoints import Endpoints
 from .web.files_api import FolderHandler, Folders
 from .web.live_api import LiveModelHandler
-from .web.thumbnail_api import ThumbnailHandler
+from .web.thumbnail_api import ThumbnailHandler, Thumbnails
 
 
 class RrfModelPlugin(
@@ -29,7 +29,7 @@ class RrfModelPlugin(
     """RepRapFirmware's object model, live inside OctoPrint."""
 
     def __init__(self):
-        self.parts = Parts(
+        self.parts = Assembly(
             Host(
                 printer=lambda: self._printer,
                 profiles=lambda: self._printer_profile_manager,
@@ -43,9 +43,9 @@ class RrfModelPlugin(
             )
         )
         self._api = self.parts.api
-        self._interfaces = self.parts.interfaces
+        self._moonraker = self.parts.moonraker.api
         self._history = self.parts.history
-        self._setup = self.parts.protection.setup
+        self._setup = self.parts.setup
 
     def _tell_pages(self, message):
         self._plugin_manager.send_plugin_message(
@@ -55,15 +55,15 @@ class RrfModelPlugin(
     ##~~ OctoPrintPlugin
 
     def on_plugin_pending_uninstall(self):
-        self.parts.protection.restore()
+        self.parts.setup.restore_all()
 
     def on_plugin_disabled(self):
-        self.parts.protection.restore()
+        self.parts.setup.restore_all()
 
     ##~~ StartupPlugin, ShutdownPlugin
 
     def on_startup(self, host, port):
-        self.parts.neighbours.register(self)
+        self.parts.other_plugins.register(self)
 
     def on_after_startup(self):
         self.parts.start()
@@ -75,7 +75,7 @@ class RrfModelPlugin(
 
     def on_event(self, event, payload):
         if event == DISABLED_PLUGIN and payload["id"] == self._identifier:
-            self.parts.protection.restore()
+            self.parts.setup.restore_all()
         self.parts.on_event(event, payload)
 
     ##~~ SettingsPlugin
@@ -129,10 +129,10 @@ class RrfModelPlugin(
         return self._api.get_status()
 
     def get_api_commands(self):
-        return self.parts.protection.commands.names()
+        return self.parts.commands.names()
 
     def on_api_command(self, command, data):
-        return self.parts.protection.commands.run(command, data)
+        return self.parts.commands.run(command, data)
 
     ##~~ octoprint.server.http.routes
 
@@ -140,18 +140,18 @@ class RrfModelPlugin(
         """Return what Tornado serves itself: who waits there holds up nobody."""
         from octoprint.server import app
 
-        questions = self.parts.questions
+        questions, model = self.parts.questions, self.parts.model
         live = {"questions": questions, "app": app}
         folders = Folders(questions.ask_about_the_card, questions.changes_of_the_card)
         return [
             (r"/model/live", LiveModelHandler, live),
             (r"/files", FolderHandler, {**live, "folders": folders}),
-            (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": self.parts.thumbnails()}),
-            *self._interfaces.routes(app),
+            (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": Thumbnails(questions, model)}),
+            *self.parts.moonraker.sockets.routes(app),
         ]
 
     ##~~ octoprint.server.api.before_request
 
     def before_request(self, *args, **kwargs):
         """Return what looks at each request to OctoPrint's API before it is answered."""
-        return [self.parts.uploads.refuse, *self.parts.protection.refusals]
+        return self.parts.refusals

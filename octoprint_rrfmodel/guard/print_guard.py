@@ -1,15 +1,16 @@
 """A print that OctoPrint streams, paused when the machine can't print: RRF leaves that to hosts."""
 
+from functools import partial
 from typing import NamedTuple
 
 import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
+from ..host.answers import refusal
 from ..host.warning_texts import waiting_text, warning_text
 from ..rrf.views.warnings import OFF, POSITION_LOST, RESET, faults, is_resumable, is_unhomed
 from ..rrf.wire.errors import guarded_alert
-from ..web.model_api import refusal
 
 JOB_ENDPOINT = "api.controlJob"
 """OctoPrint's view of ``POST /api/job``."""
@@ -30,16 +31,16 @@ class PrintGuard:
     """Pauses OctoPrint's own print, once for each cause, and keeps it paused until that is over.
 
     ``printer()`` is OctoPrint's printer. ``has_print()`` says whether it prints, or has paused,
-    one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on(code)`` says
-    whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``causes``,
+    one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on("guard", code)``
+    says whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``causes``,
     ``pause``, ``refusal`` and ``handles`` may be called by any thread, all else by the worker.
     """
 
-    def __init__(self, printer, has_print, model, is_on, tell):
+    def __init__(self, printer, has_print, model, *, is_on, tell):
         self._printer = printer
         self.has_print = has_print
         self._model = model
-        self._is_on = is_on
+        self._is_on = partial(is_on, "guard")
         self._tell = tell
         self._was_reset = False
         self._was_off = False
@@ -96,11 +97,24 @@ class PrintGuard:
         self._pausing_for = ((), message)
         self._tell("print_paused", waiting_text(message))
 
-    def board_was_reset(self):
+    ##~~ a listener
+
+    def replied(self, taken, asked_at):
+        """Look at the model that a reply has changed."""
+        self.look()
+
+    def heard(self, what):
+        """Note that a line of text tells of a new beginning of the board."""
+        if what == "reset":
+            self.reset()
+
+    def reset(self):
         """Note that the board has begun anew."""
         if self.has_print() and self._is_on(RESET.code):
             self._was_reset = True
             self.look()
+
+    ##~~ OctoPrint's own events, on the worker
 
     def paused(self):
         """Note that the print is paused, by whomever."""
@@ -118,7 +132,7 @@ class PrintGuard:
             self._pausing_for = None
         self.look()
 
-    def ended(self):
+    def forgotten(self):
         """Note that there is no print any more, or another one."""
         self._was_reset = self._was_off = False
         self._told = frozenset()

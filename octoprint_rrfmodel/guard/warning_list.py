@@ -1,72 +1,38 @@
-"""What a person should know or change: codes, sentences, and the command that mends it."""
+"""The warnings that hold now, of the machine, the print and OctoPrint, put together."""
 
-from ..host.warning_texts import paused_text, waiting_text, warning_text
-from ..rrf.views.warnings import (
-    ADVICE,
-    FAULT,
-    LEVELS,
-    POSITION_LOST,
-    RESET,
-    UNANSWERABLE,
-    WARNING,
-    alerts,
-)
-
-PRINT_PAUSED = "print_paused"
-
-ALL_LEVELS = {
-    **LEVELS,
-    RESET.code: FAULT,
-    POSITION_LOST.code: FAULT,
-    PRINT_PAUSED: FAULT,
-    "mqtt_topic": WARNING,
-}
-"""How much each warning matters; those that aren't here are advice."""
-
-ORDER = (FAULT, WARNING, ADVICE)
-
-FIXES = {
-    "halted": "recover",
-    "long_running_commands": "fix_settings",
-    "uppercase": "fix_settings",
-    "unknown_commands": "fix_settings",
-    "external_heatup": "fix_settings",
-    "profile_tools": "fix_profile",
-}
-"""The command of ``POST /api/plugin/rrfmodel`` that mends what a warning is about."""
+from ..host.warning_texts import paused_text, waiting_text
+from ..host.warnings import ALL_LEVELS, ORDER, PRINT_PAUSED, warning
+from ..rrf.views.warnings import UNANSWERABLE, alerts
 
 
-class Advice:
+class WarningList:
     """Puts the warnings together; any thread may ask.
 
-    ``model()`` is the snapshot, ``is_rrf()`` says whether RepRapFirmware is at the other end,
-    ``is_operational()`` whether any printer is. The others know what is to be told.
+    ``model()`` is the snapshot, ``link`` the line to the board. ``problems()`` gives the codes of
+    what OctoPrint is to be set up for. The others know what is to be told.
     """
 
-    def __init__(self, model, is_rrf, is_operational, guard, recovery, settings, profile, box):
+    def __init__(self, model, link, guard, *, recovery, boxes, problems):
         self._model = model
-        self._is_rrf = is_rrf
-        self._is_operational = is_operational
+        self._link = link
         self._guard = guard
         self._recovery = recovery
-        self._settings = settings
-        self._profile = profile
-        self._box = box
+        self._boxes = boxes
+        self._problems = problems
 
     def __call__(self):
         """Return the warnings, the worst first, in the form of the public contract, section 2."""
-        if not self._is_rrf():
-            was_halted = self._recovery.is_wanted and not self._is_operational()
+        if not self._link.is_rrf:
+            was_halted = self._recovery.is_wanted and not self._link.is_operational
             return [warning("halted")] if was_halted else []
         found = alerts(self._model(), self._guard.has_print())
         found += [cause for cause in self._guard.causes() if cause not in found]
-        if self._box.is_open and UNANSWERABLE not in found:
+        if self._boxes.is_open and UNANSWERABLE not in found:
             found.append(UNANSWERABLE)
-        codes = [*self._settings.missing, self._profile.problem()]
         warnings = [
             *self._paused(),
             *map(_of_alert, found),
-            *(warning(code) for code in codes if code),
+            *map(warning, self._problems()),
         ]
         return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
 
@@ -85,20 +51,6 @@ class Advice:
                 "causes": causes,
             }
         ]
-
-
-def warning(code, values=None, name=None):
-    """Return a warning in the form of the public contract; ``name`` tells it from its like."""
-    told = {
-        "code": name or code,
-        "text": warning_text(code, values),
-        "level": ALL_LEVELS.get(code, ADVICE),
-    }
-    if values:
-        told["values"] = values
-    if code in FIXES:
-        told["fix"] = FIXES[code]
-    return told
 
 
 def _of_alert(alert):

@@ -27,3 +27,7 @@ class Host(NamedTuple):
     def is_set(self, *path):
         """Return whether a switch of the plugin's settings is on."""
         return self.settings().get_boolean(list(path))
+
+    def simulator(self):
+        """Return the settings of the simulated board."""
+        return self.settings().get(["simulator"], merged=True)

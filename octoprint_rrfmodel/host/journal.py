@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 
-class Changes:
+class Journal:
     """A file in the plugin's folder, and not in its settings: OctoPrint's settings page would
     write those back as it found them.
 

@@ -4,12 +4,8 @@ import logging
 import threading
 from typing import NamedTuple
 
-from octoprint.util.version import is_octoprint_compatible
-
 from ..rrf.gcode.blocking import BLOCKING
-
-IS_2 = is_octoprint_compatible(">=2.0.0rc1")
-"""Whether the settings of the serial line are the serial connector's."""
+from .version import IS_2
 
 KNOWN_TO_WAIT = frozenset(("M109", "M116", "M190", "M191"))
 """Commands for which OctoPrint waits without being told (``_gcode_M109_sent`` and the like)."""
@@ -106,6 +102,10 @@ class OctoPrintSettings:
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.octoprint_settings")
         self.missing = ()
         """The codes of the warnings, as they were when last looked."""
+
+    def identified(self):
+        """Find out what is missing for the board that is there now (a listener)."""
+        self.look()
 
     def look(self):
         """Find out what is missing."""

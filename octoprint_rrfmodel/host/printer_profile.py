@@ -23,14 +23,14 @@ ADAPTED = ("volume.origin", "volume.depth", "volume.custom_box", OFFSETS)
 class PrinterProfile:
     """Compares the profile with the machine's tools, raises its number of extruders, lowers it.
 
-    ``profiles()`` is OctoPrint's manager of profiles, ``connection()`` its connection to
-    RepRapFirmware or ``None``, ``model()`` the snapshot. ``changes`` is where what was changed is
-    written down.
+    ``profiles()`` is OctoPrint's manager of profiles, ``in_use()`` the profile that the connection
+    to RepRapFirmware goes by or ``None``, ``model()`` the snapshot. ``changes`` is where what was
+    changed is written down.
     """
 
-    def __init__(self, profiles, connection, model, changes):
+    def __init__(self, profiles, in_use, model, *, changes):
         self._profiles = profiles
-        self._connection = connection
+        self._in_use = in_use
         self._model = model
         self._changes = changes
         self._lock = threading.Lock()
@@ -38,13 +38,13 @@ class PrinterProfile:
 
     def problem(self):
         """Return the code of the warning that is due, ``None`` where there is none."""
-        comm = self._connection()
+        in_use = self._in_use()
         needed = self._needed()
-        if comm is None or not needed:
+        if in_use is None or not needed:
             return None
         if _count(self._profiles().get_current_or_default()) < needed:
             return "profile_tools"
-        if _count(profile_of(comm, self._profiles())) < needed:
+        if _count(in_use) < needed:
             return "profile_reconnect"
         return None
 
@@ -132,11 +132,6 @@ class PrinterProfile:
     def _needed(self):
         numbers = Machine(self._model()).tools
         return max((number for number in numbers if number < MOST_EXTRUDERS), default=-1) + 1
-
-
-def profile_of(comm, profiles):
-    """Return the profile that a connection goes by: 2.0 keeps the one that it was made with."""
-    return getattr(comm, "_printer_profile", None) or profiles.get_current_or_default()
 
 
 def _at(profile, path):

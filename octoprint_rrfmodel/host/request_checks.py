@@ -12,7 +12,7 @@ import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
-from ..web.model_api import refusal
+from .answers import refusal
 
 PRINTHEAD, TOOL = "api.printerPrintheadCommand", "api.printerToolCommand"
 BED, CHAMBER = "api.printerBedCommand", "api.printerChamberCommand"
@@ -30,7 +30,7 @@ class Check(NamedTuple):
     views: tuple[str, ...]
     commands: tuple[str, ...]
     holds: Callable[[dict, object], bool]
-    """Whether the request, with OctoPrint's connection, is one that the documents allow."""
+    """Whether the request, with the line to the board, is one that the documents allow."""
     status: int
     text: str
     """Which sentence says what is wrong."""
@@ -51,32 +51,32 @@ def _is_target(value):
 
 
 def _number_in(name):
-    return lambda data, comm: _is_number(data.get(name))
+    return lambda data, link: _is_number(data.get(name))
 
 
-def _target(data, comm):
+def _target(data, link):
     return _is_target(data.get("target"))
 
 
-def _jog(data, comm):
+def _jog(data, link):
     given = [data[axis] for axis in AXES if axis in data]
     return bool(given) and all(map(_is_number, given))
 
 
-def _speed(data, comm):
+def _speed(data, link):
     return _is_speed(data.get("speed"))
 
 
-def _axes(data, comm):
+def _axes(data, link):
     return isinstance(data.get("axes"), (list, str))
 
 
-def _tool(data, comm):
+def _tool(data, link):
     return _is_name("tool[0-9]+", data.get("tool"))
 
 
 def _by_tool(name, pattern, is_right):
-    def holds(data, comm):
+    def holds(data, link):
         values = data.get(name)
         return isinstance(values, dict) and all(
             _is_name(pattern, tool) and is_right(value) for tool, value in values.items()
@@ -89,13 +89,12 @@ def _is_name(pattern, value):
     return isinstance(value, str) and re.fullmatch(pattern, value) is not None
 
 
-def _is_between_prints(data, comm):
-    return not comm.isPrinting()
+def _is_between_prints(data, link):
+    return not link.is_printing()
 
 
-def _has_card(data, comm):
-    # where OctoPrint's settings say that there is none it answers 404
-    return comm.isSdReady() or not comm._sdEnabled
+def _has_card(data, link):
+    return link.has_card()
 
 
 CHECKS = (
@@ -121,18 +120,18 @@ CHECKS = (
 
 
 class RequestChecks:
-    """Answers such requests while ``connection()`` gives a board with RepRapFirmware."""
+    """Answers such requests while ``link`` leads to a board with RepRapFirmware."""
 
-    def __init__(self, connection):
-        self._connection = connection
+    def __init__(self, link):
+        self._link = link
 
     ##~~ octoprint.server.api.before_request
 
     def refuse(self):
         """Return an answer for a request that the documents refuse, ``None`` for others."""
         request = flask.request
-        comm = self._connection()
-        if request.method != "POST" or comm is None or not comm.isOperational():
+        link = self._link
+        if request.method != "POST" or not link.is_rrf or not link.is_operational:
             return None
         checks = [check for check in CHECKS if request.endpoint in check.views]
         # without the permission OctoPrint's own answer is the right one
@@ -142,7 +141,7 @@ class RequestChecks:
         if not isinstance(data, dict):
             return None
         for check in checks:
-            if data.get("command") in check.commands and not check.holds(data, comm):
+            if data.get("command") in check.commands and not check.holds(data, link):
                 return refusal(check.status, _sentence(check.text))
         return None
 

@@ -4,8 +4,11 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from ..rrf.gcode.commands.parameters import shown
-from ..web.model_api import answer, refusal
+from .answers import answer, refusal
 from .command_texts import command_text
+from .journal import Journal
+from .octoprint_settings import OctoPrintSettings
+from .printer_profile import PrinterProfile
 
 SEEN = ["wizard_seen"]
 
@@ -13,17 +16,40 @@ SEEN = ["wizard_seen"]
 class Setup:
     """Tells what there is to set up, and writes what somebody has chosen of it.
 
-    ``settings`` are ``OctoPrintSettings``, ``profile`` is the ``PrinterProfile``, ``own()`` are
-    the plugin's settings. ``is_ready()`` says whether the machine has told its whole model,
-    ``prints()`` whether OctoPrint or the machine has a print, paused or not.
+    ``host`` is OctoPrint (``host.host.Host``), ``link`` the line to the board, ``known`` what it
+    has told (``link.known.Known``).
     """
 
-    def __init__(self, settings, profile, own, is_ready, prints):
-        self._settings = settings
-        self._profile = profile
-        self._own = own
-        self._is_ready = is_ready
-        self._prints = prints
+    def __init__(self, host, link, known):
+        self.settings = OctoPrintSettings(
+            host.settings, Journal(host.folder, "changed_settings.json")
+        )
+        self._profile = PrinterProfile(
+            host.profiles,
+            link.profile,
+            known.model,
+            changes=Journal(host.folder, "changed_profiles.json"),
+        )
+        self._own = host.settings
+        self._link = link
+        self._known = known
+
+    def problems(self):
+        """Return the codes of the warnings that are due."""
+        code = self._profile.problem()
+        return [*self.settings.missing, *([code] if code else [])]
+
+    def restore_all(self):
+        """Set back what was changed of OctoPrint's own, as when the plugin will be gone."""
+        self.settings.restore()
+        self._profile.restore()
+
+    def _is_ready(self):
+        return self._link.is_rrf and self._known.is_ready()
+
+    def _prints(self):
+        machine = self._known.machine()
+        return self._link.has_a_print() or machine.prints or machine.status == "paused"
 
     def is_first_run(self):
         """Return whether nobody has been led through this since the plugin was installed."""
@@ -38,7 +64,7 @@ class Setup:
             {
                 "first_run": self.is_first_run(),
                 "ready": self._is_ready(),
-                "settings": self._settings.table(),
+                "settings": self.settings.table(),
                 "profile": self._profile.differences() if self._is_ready() else [],
             }
         )
@@ -70,8 +96,7 @@ class Setup:
         """Set back what was changed of OctoPrint's own; a print goes by it."""
         if self._prints():
             return 409, gettext("Something is being printed. Set it back afterwards.")
-        self._settings.restore()
-        self._profile.restore()
+        self.restore_all()
         return None
 
     def wizard_done(self, parameters):

@@ -13,18 +13,22 @@ OUTCOMES = {
 }
 
 
-class HostJobs(PrinterCallback):
+class StreamedJob(PrinterCallback):
     """Follows OctoPrint's own job; OctoPrint calls from its threads, ``job()`` may be asked by any.
 
-    ``changed()`` is called when there is news.
+    What is attached is called when there is news.
     """
 
-    def __init__(self, changed):
-        self._changed = changed
+    def __init__(self):
+        self._changed = None
         self._data = None
         self._last = None
         self._is_on = False
         self._file = "", None
+
+    def attach(self, changed):
+        """Have ``changed()`` called when there is news."""
+        self._changed = changed
 
     def on_printer_send_current_data(self, data):
         """Take what OctoPrint tells its pages about the job (OctoPrint's callback)."""

@@ -12,3 +12,6 @@ STATUS_TAG = "trigger:rrfmodel.status"
 COMMAND_TAG = "trigger:rrfmodel.command"
 
 SCRIPT_TAG = "trigger:rrfmodel.script"
+
+SWALLOWED = "// rrfmodel"
+"""Stands for a line that was ours: counts as a sign of life and is parsed no further."""

@@ -32,14 +32,14 @@ class BoxPrompt:
     """Shows the open box, once, and closes the dialog when the box is gone.
 
     ``handler(hook)`` is the bundled plugin's handler of a hook, ``None`` without that plugin.
-    ``connection()`` is OctoPrint's connection to a board with RepRapFirmware, else ``None``.
+    ``link`` has what OctoPrint's hooks are handed as the connection.
     ``model()`` is the snapshot, ``is_on()`` the setting. ``look`` is called by one thread,
     ``translate`` by any.
     """
 
-    def __init__(self, handler, connection, model, is_on):
+    def __init__(self, handler, link, *, model, is_on):
         self._handler = handler
-        self._connection = connection
+        self._link = link
         self._model = model
         self._is_on = is_on
         self._shown = NO_BOX
@@ -51,7 +51,7 @@ class BoxPrompt:
         box = self._box() if self._is_on() else NO_BOX
         if box.get("seq") == self._shown.get("seq"):
             return
-        handle, comm = self._handler(ACTION_HOOK), self._connection()
+        handle, comm = self._handler(ACTION_HOOK), self._link.connection
         if handle is not None and self._shown:
             _tell(handle, comm, END)
         self._shown = NO_BOX
@@ -65,7 +65,7 @@ class BoxPrompt:
         for line in (END, *prompt(box, is_answerable, names)):
             _tell(handle, comm, line)
 
-    def translate(self, cmd, gcode):
+    def translate(self, cmd, gcode, tags=()):
         """Return what goes out in place of a command, ``None`` for all but answers to prompts.
 
         RepRapFirmware has no M876: what answers no box that is open isn't sent.

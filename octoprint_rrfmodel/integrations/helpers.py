@@ -3,23 +3,23 @@
 from concurrent.futures import Future
 
 from ..link.poll_slot import TooManyQueries
+from ..link.questions import refusal_to_send
 from ..rrf import klipper
 from ..rrf.model.frozen import frozen
 from ..rrf.model.keys import value_at
-from ..web.model_api import refusal_to_send
 
 
 class Helpers:
     """The model, changes, questions, commands, the state and the printer objects.
 
-    ``model()`` is the snapshot, ``questions`` are ``live.LiveQuestions``, ``command(name,
-    **parameters)`` queues a command or raises ``ValueError``, ``status()`` gives the plugin's
-    state.
+    ``model()`` is the snapshot, ``subscribe(path, callback)`` notes who listens, ``questions`` are
+    ``link.questions.LiveQuestions``, ``command(name, **parameters)`` queues a command or raises
+    ``ValueError``, ``status()`` gives the plugin's state.
     """
 
-    def __init__(self, model, audience, questions, command, status, objects):
+    def __init__(self, model, subscribe, questions, *, command, status, objects):
         self._model = model
-        self._audience = audience
+        self._subscribe = subscribe
         self._questions = questions
         self._command = command
         self._status = status
@@ -29,7 +29,7 @@ class Helpers:
         """Return the helpers by their names, in OctoPrint's form."""
         return {
             "get": self.get,
-            "subscribe": self._audience.subscribe,
+            "subscribe": self._subscribe,
             "query": self.query,
             "command": self._command,
             "status": self._status,

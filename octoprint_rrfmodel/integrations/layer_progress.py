@@ -9,7 +9,7 @@ are OctoPrint's.
 
 import time
 from collections import deque
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 from ..rrf.views.printing import printing
 
@@ -54,18 +54,25 @@ def streamed_print(data):
     )
 
 
+class Readers(NamedTuple):
+    """Whom the payload is sent to."""
+
+    send: Callable[[str, dict], object]
+    """Reaches the pages of those who may read the model: message and payload."""
+    fire: Callable[[str, dict], object]
+    """Reaches OctoPrint's other plugins: event and payload."""
+
+
 class LayerProgress:
     """Sends the payload on changes during a print, at most once a second, and once when it ends.
 
-    ``send(message, payload)`` reaches the pages of those who may read the model, ``fire(event,
-    payload)`` OctoPrint's other plugins. ``model()`` is the snapshot. ``streamed()`` is the print
+    ``readers`` are whom it is sent to. ``model()`` is the snapshot. ``streamed()`` is the print
     that OctoPrint streams, ``None`` where it doesn't. ``is_wanted()`` says whether to send at all.
     ``now()`` is the time of day in seconds. One thread calls ``tick``.
     """
 
-    def __init__(self, send, fire, model, streamed, is_wanted, clock, now=time.time):
-        self._send = send
-        self._fire = fire
+    def __init__(self, readers, model, streamed, *, is_wanted, clock, now=time.time):
+        self._readers = readers
         self._model = model
         self._streamed = streamed
         self._is_wanted = is_wanted
@@ -126,8 +133,8 @@ class LayerProgress:
         for reason in reasons:
             # an event reaches whoever listens, so that it doesn't tell the file's name
             told = {**payload, "updateReason": reason, "currentFilename": UNKNOWN}
-            self._fire(f"{PLUGIN}_{reason}", told)
-        self._send(MESSAGE, {**payload, "updateReason": reasons[0]})
+            self._readers.fire(f"{PLUGIN}_{reason}", told)
+        self._readers.send(MESSAGE, {**payload, "updateReason": reasons[0]})
 
 
 class LayerTimes:

@@ -11,7 +11,7 @@ import json
 import logging
 import threading
 
-from ..web.push import UNIMPORTANT
+from ..link.status import UNIMPORTANT
 
 SHORTEST_SECONDS = 1.0
 
@@ -55,7 +55,7 @@ class MqttPublisher:
     broker.
     """
 
-    def __init__(self, publish, topic, model, status, clock):
+    def __init__(self, publish, topic, model, *, status, clock):
         self._publish = publish
         self._topic = topic
         self._model = model

@@ -11,29 +11,38 @@ def custom_events(*args, **kwargs):
 
 
 class MachineEvents:
-    """Fires an event for each thing that happens; runs on the worker thread.
+    """Fires an event for each thing that happens; a listener.
 
-    ``fire(name, payload)`` is OctoPrint's.
+    ``fire(name, payload)`` is OctoPrint's. ``known`` is what is known of the machine.
     """
 
-    def __init__(self, fire):
+    def __init__(self, fire, known):
         self._fire = fire
+        self._known = known
         self._chronicle = Chronicle()
         self._was_ready = False
 
-    def replied(self, model, is_ready):
+    def replied(self, taken, asked_at):
         """Find out what has happened since the model before."""
-        for happening in self._chronicle.look(model):
-            self._fire(PREFIX + happening.name, happening.payload)
+        self._look()
+
+    def reset(self):
+        """Tell that the board began anew."""
+        self._look()
+
+    def _look(self):
+        for event in self._chronicle.look(self._known.model()):
+            self._fire(PREFIX + event.name, event.payload)
+        is_ready = self._known.is_ready()
         if is_ready and not self._was_ready:
             self._fire(PREFIX + MODEL_READY, {})
         self._was_ready = is_ready
 
-    def heard(self, line):
+    def line(self, line):
         """Take a line of text from the printer."""
         self._chronicle.heard(line)
 
-    def forget(self):
+    def forgotten(self):
         """Begin anew with the next connection."""
         self._chronicle = Chronicle()
         self._was_ready = False

@@ -10,20 +10,23 @@ from ..rrf.model.frozen import frozen
 UPDATED_HOOK = "octoprint.plugin.rrfmodel.updated"
 
 
-class Audience:
+class PluginSubscribers:
     """Tells subscribers and hook handlers what has changed, one change after the other.
 
     Changes that come while somebody is still busy with an earlier one are told as one.
-    ``handlers()`` gives what is to be called with the top-level keys that changed and the model.
+    ``plugins()`` is OctoPrint's plugin manager, ``model()`` the snapshot.
     """
 
-    def __init__(self, handlers):
-        self._handlers = handlers
-        self._logger = logging.getLogger("octoprint.plugins.rrfmodel.audience")
+    def __init__(self, plugins, model):
+        self._plugins = plugins
+        self._model = model
+        self._told = model()
+        self._logger = logging.getLogger("octoprint.plugins.rrfmodel.plugin_subscribers")
         self._subscriptions = Subscriptions(self._failed)
         self._lock = threading.Lock()
         self._pending = None
-        self._worker = Worker({"changed": self._tell}, [], "rrfmodel.audience")
+        self._worker = Worker("rrfmodel.plugin_subscribers")
+        self._worker.attach({"changed": self._tell})
 
     def start(self):
         """Begin to tell."""
@@ -42,8 +45,28 @@ class Audience:
             path, lambda key, new, old: callback(key, frozen(new), frozen(old))
         )
 
-    def changed(self, before, after, keys):
-        """Note that top-level keys have changed between two snapshots; returns at once."""
+    ##~~ a listener
+
+    def replied(self, taken, asked_at):
+        """Note what a reply has changed."""
+        self._changed(taken.changes)
+
+    def reset(self):
+        """Note that the model was emptied."""
+        self._changed(())
+
+    def forgotten(self):
+        """Note that the model was emptied."""
+        self._changed(())
+
+    def _changed(self, keys):
+        """Note that top-level keys have changed since the last snapshot; returns at once."""
+        before, self._told = self._told, self._model()
+        after = self._told
+        # a reset or the end of a connection empties the model
+        keys = keys if after else before
+        if not keys:
+            return
         with self._lock:
             waiting = self._pending
             if waiting is not None:
@@ -57,7 +80,7 @@ class Audience:
             before, after, keys = self._pending
             self._pending = None
         self._subscriptions.tell(before, after, dict.fromkeys(keys, True))
-        handlers = self._handlers()
+        handlers = list(self._plugins().get_hooks(UPDATED_HOOK).values())
         model = frozen(after) if handlers else None
         for handler in handlers:
             try:

@@ -17,7 +17,7 @@ class TooManyQueries(Exception):
 
 
 class Poll:
-    """A request, from OctoPrint's queue to its answer and the M105 behind it."""
+    """A request, from OctoPrint's queue to its answer and its acknowledgement."""
 
     def __init__(self, request, query, is_card, queued_at):
         self.request = request
@@ -25,14 +25,13 @@ class Poll:
         self.is_card = is_card
         self.queued_at = queued_at
         self.sent_at = None
-        self.status_sent = False
+        self.acknowledged = False
         self.answered = False
         self.is_about_the_card = isinstance(request, (ListRequest, FileRequest, PieceRequest))
 
     def is_over(self):
         """Return whether the next poll may leave."""
-        # the M105 behind it leaves when OctoPrint has the ok of the poll itself
-        return self.answered and self.status_sent
+        return self.answered and self.acknowledged
 
 
 class Queries:

@@ -10,7 +10,6 @@ from ..rrf.follow.pace import Pace
 from ..rrf.views.machine import Machine
 from ..rrf.wire.line import NO_BUFFERS
 from ..rrf.wire.reply import MalformedReply, decode_page
-from ..rrf.wire.request import LIVE_FLAGS, ModelRequest
 from .poll_slot import GONE, Poll, Queries, answer_query, fail
 
 ANSWER_SECONDS = 10.0
@@ -32,18 +31,18 @@ STALE_POLLS = 3
 class Poller:
     """Sends polls while nothing is in the way, and feeds what comes to the follower.
 
-    ``send(line)`` gives a G-code line to OctoPrint's queue. ``bridge`` is asked whether the line
-    is free. ``changed(Taken, asked_at)`` is told of each reply that was applied. ``card`` is
-    asked what to ask about the card, and fed (``sdcard.SdCard``).
+    ``link`` is asked whether the line is free and sends requests. ``follower`` says what to ask
+    and takes replies, ``card`` the same about the card. ``known`` is noted what was applied, and
+    ``replied(taken, asked_at)`` told.
     """
 
-    def __init__(self, follower, card, bridge, send, changed, clock):
-        self._follower = follower
+    def __init__(self, follower, card, link, *, known, replied, clock):
+        self.follower = follower
         self._card = card
         self._card_polls = 0
-        self._bridge = bridge
-        self._send = send
-        self._changed = changed
+        self._link = link
+        self._known = known
+        self._replied = replied
         self._clock = clock
         self._pace = Pace()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.polling")
@@ -55,36 +54,29 @@ class Poller:
         self._was_query = False
         self.query = self._queries.ask
         self.query_for = self._queries.ask_for
-        self.applied_at = None
-        """When the last reply was applied; ``None`` before the first of a connection."""
-        self._live_asked_at = {}
-        self.asked_at = 0.0
-        """When the live values of the model were asked for, the oldest of them; for any thread."""
         self.connections = 0
         """How many there were since OctoPrint's start."""
         self.polls = 0
         self.bytes = 0
 
-    def start(self):
+    def identified(self):
         """Begin to poll: the printer has just told that it runs RepRapFirmware."""
         self.connections += 1
-        self._pace.connected(self._bridge.baudrate())
+        self._pace.connected(self._link.rate())
         self._running = True
         self._queries.open()
         self._next_at = self._clock()
-        self._bridge.expects_refusal = self._follower.protocol is None
+        self._link.expects_refusal = self.follower.protocol is None
 
-    def stop(self):
+    def forgotten(self):
         """Poll no more and know nothing: the connection is gone."""
         self._running = False
         self._queries.close()
         if self._poll is not None and self._poll.query is not None:
             fail(self._poll.query, GONE)
         self._poll = None
-        self.applied_at = None
-        self._live_asked_at.clear()
-        self.asked_at = 0.0
-        self._follower.forget()
+        self._known.forget()
+        self.follower.forget()
 
     def tick(self):
         """Send what is due; return the seconds until there may be something to do again."""
@@ -95,7 +87,7 @@ class Poller:
             self._watch(now)
         # what somebody asks beside a print comes in its turn: the print's lines would wait
         is_due = now >= self._next_at or (
-            len(self._queries) and not self._bridge.is_streaming_a_print()
+            len(self._queries) and not self._link.is_streaming_a_print()
         )
         if self._poll is None and is_due and not self.blocked():
             self._start_poll(now)
@@ -107,26 +99,25 @@ class Poller:
         """Return why no poll goes out: the line's reason, or ``buffers``."""
         if not self._running:
             return None
-        reason = self._bridge.blocked()
-        if reason is None and self._follower.short_of_buffers and self._clock() < self._next_at:
+        reason = self._link.blocked()
+        if reason is None and self.follower.short_of_buffers and self._clock() < self._next_at:
             reason = "buffers"
         return reason
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
-        return self._pace.wait(self._bridge.is_streaming_a_print())
+        return self._pace.wait(self._link.is_streaming_a_print())
 
     def is_stale(self):
         """Return whether the model is older than three poll intervals."""
-        if self.applied_at is None:
-            return True
-        return self._clock() - self.applied_at > STALE_POLLS * self.interval()
+        age = self._known.age()
+        return age is None or age > STALE_POLLS * self.interval()
 
     def look(self, key=None):
         """Ask soon, and for ``key`` again, "" for all; beside a print everything in its turn."""
         if key is not None:
-            self._follower.refetch(key)
-        if not self._bridge.is_streaming_a_print():
+            self.follower.refetch(key)
+        if not self._link.is_streaming_a_print():
             self.hurry()
 
     def hurry(self):
@@ -142,10 +133,10 @@ class Poller:
             self._poll.sent_at = at
             self.polls += 1
 
-    def status_sent(self):
-        """Note that the M105 behind the poll went out: the poll's ok has come."""
+    def poll_acknowledged(self):
+        """Note that the board is through with the poll, whatever it has answered."""
         if self._poll is not None and self._poll.sent_at is not None:
-            self._poll.status_sent = True
+            self._poll.acknowledged = True
             self._finish_if_over()
 
     def refused(self, line):
@@ -155,7 +146,7 @@ class Poller:
         if not is_model or not NOT_KNOWN.search(line.lower()):
             return
         if poll.request.line.split()[0] in line:
-            self._follower.not_supported()
+            self.follower.not_supported()
             self._end(failed=False)
 
     def reply(self, text):
@@ -176,7 +167,7 @@ class Poller:
             return
         asked_at = poll.sent_at
         try:
-            taken = self._follower.take(text)
+            taken = self.follower.take(text)
         except MalformedReply as error:
             self._logger.debug("Reply not understood, asking again: %s", error)
             poll.answered = True
@@ -186,28 +177,23 @@ class Poller:
         if taken is None:
             return
         poll.answered = True
-        self._bridge.expects_refusal = False
+        self._link.expects_refusal = False
         if text == NO_BUFFERS:
             self._pace.failed()
         else:
             self._pace.answered(len(text), self._clock() - asked_at)
-            self.applied_at = self._clock()
-            self._note_live(poll.request, asked_at)
-            self._changed(taken, asked_at)
+            self._known.note(poll.request, asked_at)
+            self._replied(taken, asked_at)
         self._finish_if_over()
 
-    def _note_live(self, request, asked_at):
-        """Note when live values were asked for: all of them, or one key of a board without room."""
-        if not isinstance(request, ModelRequest):
-            self._live_asked_at = {"": asked_at}
-        elif request.flags == LIVE_FLAGS:
-            if not request.key:
-                self._live_asked_at.clear()
-            self._live_asked_at[request.key] = asked_at
-        self.asked_at = min(self._live_asked_at.values(), default=0.0)
+    def heard(self, what):
+        """Note what a line tells: that the board refused to answer, or that something happened."""
+        if what == "card":
+            self._card_refused()
+        else:
+            self.hurry()
 
-    def card_refused(self):
-        """Note that the board would not answer a question about the card."""
+    def _card_refused(self):
         poll = self._poll
         if poll is None or not poll.is_about_the_card or poll.sent_at is None or poll.answered:
             return
@@ -229,17 +215,17 @@ class Poller:
             request = self._card.next_request()
             is_card = request is not None
         self._card_polls = self._card_polls + 1 if is_card else 0
-        request = request or self._follower.next_request()
+        request = request or self.follower.next_request()
         self._poll = Poll(request, query, is_card, now)
-        self._send(request.line)
+        self._link.ask(request)
 
     def _is_cards_turn(self):
         """Return whether the card may be asked about: never beside a print that is streamed."""
         return (
-            self._follower.ready
+            self.follower.ready
             and self._card_polls < CARD_POLLS_BETWEEN_LIVE
-            and not self._bridge.is_streaming_a_print()
-            and not Machine(self._follower.store.model).is_halted
+            and not self._link.is_streaming_a_print()
+            and not Machine(self.follower.store.model).is_halted
         )
 
     def _watch(self, now):
@@ -252,14 +238,14 @@ class Poller:
         elif poll.sent_at is not None:
             if now - poll.sent_at > ANSWER_SECONDS:
                 self._time_out(poll)
-        elif now - poll.queued_at > QUEUED_SECONDS and not self._bridge.blocked():
+        elif now - poll.queued_at > QUEUED_SECONDS and not self._link.blocked():
             self._time_out(poll)
 
     def _time_out(self, poll):
         if poll.is_card:
             self._card.failed()
         elif poll.query is None:
-            self._follower.timed_out()
+            self.follower.timed_out()
         else:
             fail(poll.query, "the printer did not answer in time")
         self._end(failed=True)
@@ -273,9 +259,9 @@ class Poller:
             self._pace.failed()
         self._poll = None
         wait = self._pace.wait(
-            self._bridge.is_streaming_a_print(),
-            behind=self._follower.behind or self._card.behind,
-            begins=not self._follower.ready,
+            self._link.is_streaming_a_print(),
+            behind=self.follower.behind or self._card.behind,
+            begins=not self.follower.ready,
         )
         self._next_at = self._clock() + (0.0 if self._hurries else wait)
         self._hurries = False

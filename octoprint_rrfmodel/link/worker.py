@@ -3,16 +3,16 @@
 Which thread runs what:
 
 * OctoPrint's receiving thread (``comm._monitor``), its sending thread and whoever queues a
-  command: the hooks of ``comm.CommBridge``, which put a note into this worker's queue.
-* this worker: ``polling.Poller``, ``rrf.follower.Follower`` with the store, ``push.ModelPush``,
-  ``events``, and what ``printer_objects`` keeps from one reply to the next.
-* Flask's threads: ``api``, ``moonraker``, ``commands``, which read ``store.model`` (a snapshot that
-  never changes) and numbers, and put commands into OctoPrint's queue.
-* Tornado's loop: ``live``, which waits for a future that this worker resolves, ``websocket`` and
-  ``subscribers``; others call them by ``add_callback`` alone, and clients' G-code goes back to this
-  worker to be sent.
-* ``rrfmodel.audience``, another ``Worker``: callbacks and hook handlers of other plugins.
-* ``rrfmodel.neighbours``, another: MQTT, PSUControl and the like.
+  command: the hooks in ``link.serial``, which put a note into this worker's queue.
+* this worker: ``link.poller``, ``rrf.follow.follower`` with the store, and all listeners
+  (``link.listeners``) in the order of ``assembly``.
+* Flask's threads: ``web.*_api``, ``web.moonraker.moonraker_api``, which read the snapshot, which
+  never changes, and numbers, and put commands into OctoPrint's queue.
+* Tornado's loop: ``web.live_api`` and its like, which wait for a future that this worker resolves,
+  ``web.moonraker.websocket`` and ``subscribers``; others call them by ``add_callback`` alone, and
+  clients' G-code goes back to this worker to be sent.
+* ``rrfmodel.plugin_subscribers``, another ``Worker``: callbacks and hook handlers of plugins.
+* ``rrfmodel.other_plugins``, another: MQTT, PSUControl and the like.
 * ``rrfmodel.recovery``: one restart of the board, waiting for it to come back.
 """
 
@@ -30,15 +30,20 @@ class Worker:
     return the seconds until they want to be called again.
     """
 
-    def __init__(self, handlers, ticks, name="rrfmodel.worker"):
-        self._handlers = handlers
-        self._ticks = ticks
+    def __init__(self, name):
+        self._handlers = {}
+        self._ticks = ()
         self._notes = queue.SimpleQueue()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.worker")
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
+    def attach(self, handlers, ticks=()):
+        """Take the handlers and what is called between notes; before ``start``."""
+        self._handlers = handlers
+        self._ticks = ticks
+
     def start(self):
-        """Begin to work through the notes."""
+        """Begin to work through the notes, also those that are there already."""
         self._thread.start()
 
     def stop(self):

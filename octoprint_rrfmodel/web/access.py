@@ -10,7 +10,7 @@ from octoprint.server.util import get_api_key, get_user_for_apikey
 from octoprint.server.util.tornado import WsgiInputContainer
 from octoprint.settings import settings
 
-from ..host.octoprint_settings import IS_2
+from ..host.version import IS_2
 
 
 class Caller:

@@ -6,10 +6,10 @@ import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
+from ..host.answers import refusal
 from ..host.command_texts import command_text
 from ..rrf.gcode.commands import COMMANDS
 from ..rrf.gcode.commands.parameters import listed, shown
-from .model_api import refusal
 
 ENDPOINT = "api.pluginCommand"
 """OctoPrint's view of ``POST /api/plugin/<identifier>``."""
@@ -30,19 +30,20 @@ class Command(NamedTuple):
 class PluginCommands:
     """Runs commands; none of them waits for the printer.
 
-    ``machine`` runs those to the machine; the others change what is OctoPrint's, and set it back.
+    ``machine`` runs those to the machine; ``setup`` changes what is OctoPrint's, and sets it
+    back.
     """
 
-    def __init__(self, machine, fix_settings, fix_profile, restore, wizard_done):
+    def __init__(self, machine, setup):
         def to_machine(name):
             return lambda parameters: machine.run(name, parameters)
 
         self._commands = {
             **{row.name: Command(CONTROL, to_machine(row.name)) for row in COMMANDS},
-            "fix_settings": Command("SETTINGS", lambda parameters: fix_settings()),
-            "restore_settings": Command("SETTINGS", restore),
-            "fix_profile": Command("SETTINGS", fix_profile),
-            "wizard_done": Command("SETTINGS", wizard_done),
+            "fix_settings": Command("SETTINGS", lambda parameters: setup.settings.fix()),
+            "restore_settings": Command("SETTINGS", setup.restore),
+            "fix_profile": Command("SETTINGS", setup.fix_profile),
+            "wizard_done": Command("SETTINGS", setup.wizard_done),
         }
 
     def names(self):

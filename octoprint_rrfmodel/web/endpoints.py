@@ -10,9 +10,8 @@ from .moonraker.moonraker_api import body
 class Endpoints(BlueprintPlugin):
     """Hands each request to the part that answers it.
 
-    The class that inherits it has ``_api`` (``api.ModelApi``), ``_history``
-    (``history.MachineHistory``), ``_setup`` (``setup_page.Setup``) and ``_interfaces``
-    (``interfaces.Interfaces``).
+    The class that inherits it has ``_api`` (``ModelApi``), ``_history`` (``MachineHistory``),
+    ``_setup`` (``host.setup.Setup``) and ``_moonraker`` (``MoonrakerApi``).
     """
 
     def is_blueprint_protected(self):
@@ -51,28 +50,28 @@ class Endpoints(BlueprintPlugin):
 
     @BlueprintPlugin.route("/printer/objects/list", methods=["GET"])
     def get_objects(self):
-        return self._interfaces.moonraker.get_list()
+        return self._moonraker.get_list()
 
     @BlueprintPlugin.route("/printer/objects/query", methods=["GET"])
     def get_objects_query(self):
-        return self._interfaces.moonraker.get_query(flask.request.args)
+        return self._moonraker.get_query(flask.request.args)
 
     @BlueprintPlugin.route("/printer/objects/query", methods=["POST"])
     def post_objects_query(self):
-        return self._interfaces.moonraker.post_query(body())
+        return self._moonraker.post_query(body())
 
     @BlueprintPlugin.route("/printer/info", methods=["GET"])
     def get_printer_info(self):
-        return self._interfaces.moonraker.get_printer_info()
+        return self._moonraker.get_printer_info()
 
     @BlueprintPlugin.route("/server/info", methods=["GET"])
     def get_server_info(self):
-        return self._interfaces.moonraker.get_server_info()
+        return self._moonraker.get_server_info()
 
     @BlueprintPlugin.route("/printer/gcode/script", methods=["POST"])
     def post_gcode_script(self):
-        return self._interfaces.moonraker.post_script(flask.request.args, body())
+        return self._moonraker.post_script(flask.request.args, body())
 
     @BlueprintPlugin.route("/server/gcode_store", methods=["GET"])
     def get_gcode_store(self):
-        return self._interfaces.moonraker.get_gcode_store(flask.request.args)
+        return self._moonraker.get_gcode_store(flask.request.args)

@@ -5,8 +5,9 @@ import time
 
 from flask_babel import gettext
 
+from ..host.answers import RequestRefused
 from ..rrf.wire.request import ListRequest
-from .live_api import WAIT_SECONDS, LiveModelHandler, Refused
+from .live_api import WAIT_SECONDS, LiveModelHandler
 
 KEPT_SECONDS = 20.0
 """How long a list is good, at most: volumes whose changes the board doesn't count change too."""
@@ -56,9 +57,9 @@ class Folders:
         for _ in range(MOST_PAGES):
             page = await self._ask(ListRequest(path, first))
             if page.error == NO_VOLUME:
-                raise Refused(409, gettext("The machine has no card there. Put one in."))
+                raise RequestRefused(409, gettext("The machine has no card there. Put one in."))
             if page.error:
-                raise Refused(404, gettext("The machine has no such folder."))
+                raise RequestRefused(404, gettext("The machine has no such folder."))
             found.extend(page.entries)
             if not page.entries or page.next <= first:
                 break

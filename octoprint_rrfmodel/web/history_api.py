@@ -6,9 +6,9 @@ import time
 
 from flask_babel import gettext
 
+from ..host.answers import answer, may_read, refusal
 from ..rrf.views.history import INTERVAL_SECONDS, History
 from ..rrf.views.layers import Layers
-from .model_api import answer, may_read, refusal
 
 TICK_SECONDS = 1.0
 
@@ -28,16 +28,23 @@ class MachineHistory:
         self._layers = Layers()
         self._lock = threading.Lock()
 
-    ##~~ on the worker
+    ##~~ a listener
 
-    def replied(self):
+    def replied(self, taken, asked_at):
         """Take what the model says after a reply."""
+        self._sample()
+
+    def reset(self):
+        """Take that the board began anew."""
+        self._sample()
+
+    def _sample(self):
         model, now = self._model(), self._now()
         with self._lock:
             self._history.sample(model, now)
             self._layers.look(model, now)
 
-    def heard(self, line):
+    def line(self, line):
         """Take a line of text from the printer."""
         with self._lock:
             self._layers.heard(line)

@@ -3,9 +3,9 @@
 import flask
 from flask_babel import gettext
 
+from ..host.answers import answer, may_read, refusal
 from ..rrf.model.marks import MARKS
 from ..rrf.model.meanings import MEANINGS
-from .model_api import answer, may_read, refusal
 
 
 def get_meanings():

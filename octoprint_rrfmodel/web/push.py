@@ -13,10 +13,9 @@ OctoPrint keeps the first messages that nobody on a page may see, and hands them
 logs in there; ``at``, of the state too, is the time by which a page tells old ones.
 """
 
-SHORTEST_SECONDS = 0.5
+from ..link.status import UNIMPORTANT
 
-UNIMPORTANT = frozenset(("age", "at", "revision", "counters"))
-"""Members of the state that change all the time and are worth no message of their own."""
+SHORTEST_SECONDS = 0.5
 
 
 class ModelPush:
@@ -25,7 +24,7 @@ class ModelPush:
     ``send(message)`` reaches them. ``model()`` is the snapshot, ``status()`` the plugin's state.
     """
 
-    def __init__(self, send, model, status, clock):
+    def __init__(self, send, model, status, *, clock):
         self._send = send
         self._model = model
         self._status = status
@@ -35,9 +34,15 @@ class ModelPush:
         self._told = None
         self._sent_at = 0.0
 
-    def changed(self, keys):
+    ##~~ a listener
+
+    def replied(self, taken, asked_at):
         """Note top-level keys that changed."""
-        self._changed.update(keys)
+        self._changed.update(taken.changes)
+
+    def reset(self):
+        """Note that the board began anew."""
+        self.forgotten()
 
     def forgotten(self):
         """Note that the model was emptied."""

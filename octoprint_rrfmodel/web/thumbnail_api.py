@@ -6,12 +6,13 @@ import time
 
 from flask_babel import gettext
 
+from ..host.answers import RequestRefused
 from ..rrf.card.listing import path_of
 from ..rrf.card.thumbnail import MOST_LETTERS, best, picture, print_file
 from ..rrf.follow.asked import NoFile
 from ..rrf.wire.request import FileRequest, PieceRequest
 from .files_api import refusal_of
-from .live_api import LiveModelHandler, Refused
+from .live_api import LiveModelHandler
 
 MOST_BYTES = 4_000_000
 """How much of pictures is kept; those that weren't asked for longest go first."""
@@ -47,7 +48,7 @@ class Thumbnails:
         self._turn = asyncio.Lock()
 
     async def of(self, path):
-        """Return a file's picture (``rrf.thumbnail.Picture``); raise ``Refused``.
+        """Return a file's picture (``rrf.thumbnail.Picture``); raise ``RequestRefused``.
 
         Who asks at the same time for the same shares the answer.
         """
@@ -59,7 +60,7 @@ class Thumbnails:
         if path not in self._fetching:
             reason = self._questions.refusal_of_the_card()
             if reason:
-                raise Refused(409, reason)
+                raise RequestRefused(409, reason)
             task = asyncio.ensure_future(asyncio.wait_for(self._fetch(path, file), WAIT_SECONDS))
             self._fetching[path] = task
             task.add_done_callback(lambda _: self._fetching.pop(path))
@@ -72,7 +73,7 @@ class Thumbnails:
     @staticmethod
     def _shown(found):
         if found is None:
-            raise Refused(404, gettext("This file has no picture that can be shown."))
+            raise RequestRefused(404, gettext("This file has no picture that can be shown."))
         return found
 
     def _known(self, path):
@@ -101,7 +102,7 @@ class Thumbnails:
         changes = self._questions.changes_of_the_card()
         file = await self._questions.ask_about_the_card(FileRequest(path))
         if file is NoFile:
-            raise Refused(404, gettext("The machine has no such file."))
+            raise RequestRefused(404, gettext("The machine has no such file."))
         if len(self._files) >= MOST_FILES:
             self._files.clear()
         self._files[path] = (time.monotonic() + KEPT_SECONDS, changes, file)

@@ -6,9 +6,11 @@ import itertools
 import statistics
 from typing import Any
 
-from octoprint_rrfmodel.link.serial.comm import CommBridge
+from octoprint_rrfmodel.link.serial.queued import QueuedCommands
+from octoprint_rrfmodel.link.serial.received import ReceivedLines
 from octoprint_rrfmodel.link.serial.sdcard import SdCard
 from octoprint_rrfmodel.link.serial.sdjob import SdJob
+from octoprint_rrfmodel.link.serial.serial_link import SerialLink
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from tests.bench.timing import side_by_side, verdict
 
@@ -34,34 +36,28 @@ class _Comm:
 def measure() -> None:
     """Print the cost of both hooks over an empty one, in microseconds a line."""
     comm = _Comm()
+    link = SerialLink(printer=lambda: None, profiles=lambda: None, clock=lambda: 0.0)
     card = SdCard(
-        plan=CardPlan(),
-        job=SdJob(dict, lambda: True, lambda line: None, lambda: 0.0),
-        connection=lambda: comm,
+        CardPlan(),
+        SdJob(dict, lambda: True, lambda lines, tags: None, clock=lambda: 0.0),
+        link,
         model=dict,
-        translate=lambda *command: None,
         is_reworded=lambda row: True,
     )
-    bridge = CommBridge(
-        notify=lambda *note: None,
-        translate=card.translate,
-        card=card,
-        show_target=lambda *target: None,
-        instead=lambda *command: None,
-        guards=lambda error: False,
-        sent=lambda command, tags: None,
-        clock=lambda: 0.0,
+    hooks = ReceivedLines(link, card, lambda *note: None, guards=lambda error: False)
+    queue = QueuedCommands(
+        link, lambda *note: None, lambda *command: None, translators=(card.translate,)
     )
-    bridge.on_firmware_info(comm, "RepRapFirmware for Duet 2 WiFi/Ethernet", {})
+    hooks.on_firmware_info(comm, "RepRapFirmware for Duet 2 WiFi/Ethernet", {})
     received = list(itertools.islice(itertools.cycle(RECEIVED), CALLS))
     ours, empty = side_by_side(
-        lambda: _receive(bridge.on_received, comm, received),
+        lambda: _receive(hooks.on_received, comm, received),
         lambda: _receive(_empty_received, comm, received),
     )
     _tell("received", ours, empty, RECEIVED_LIMIT)
     queued = list(itertools.islice(itertools.cycle(QUEUED), CALLS))
     ours, empty = side_by_side(
-        lambda: _queue(bridge.on_queuing, comm, queued),
+        lambda: _queue(queue.on_queuing, comm, queued),
         lambda: _queue(_empty_queuing, comm, queued),
     )
     _tell("queuing", ours, empty, QUEUING_LIMIT)

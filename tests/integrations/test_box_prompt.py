@@ -38,14 +38,14 @@ class Rig:
             ACTION_HOOK: self.plugin.action_command_handler,
             CAPABILITY_HOOK: self.plugin.firmware_capability_handler,
         }
-        self.comm = object()
+        self.link = SimpleNamespace(connection=object())
         self.is_on = True
         self.model = {"boards": [{"firmwareVersion": version}], "state": {}}
         self.prompt = BoxPrompt(
             lambda hook: self.hooks.get(hook),
-            lambda: self.comm,
-            lambda: self.model,
-            lambda: self.is_on,
+            self.link,
+            model=lambda: self.model,
+            is_on=lambda: self.is_on,
         )
 
     def show(self, box, **keys):
@@ -135,7 +135,7 @@ def test_says_once_a_connection_that_prompts_are_understood():
     # what the bundled plugin asks of a printer that said so, and RepRapFirmware doesn't know
     assert rig.commands == ["M876 P1"]
     assert rig.prompt.translate(*rig.commands, "M876") == Lines()
-    rig.comm = object()
+    rig.link.connection = object()
     rig.show({**BOX, "seq": 9})
     assert rig.commands == ["M876 P1"] * 2
 
@@ -144,7 +144,7 @@ def test_prompt_of_the_printers_own_makes_way():
     rig = Rig()
     rig.plugin._cap_prompt_support = True
     for action in ("prompt_begin Old", "prompt_show"):
-        rig.plugin.action_command_handler(rig.comm, "", action)
+        rig.plugin.action_command_handler(rig.link.connection, "", action)
     assert rig.show(BOX)[-1] == SHOWN
 
 
@@ -159,7 +159,7 @@ def test_without_the_bundled_plugin_nothing_happens():
 def test_disconnected():
     rig = Rig()
     rig.show(BOX)
-    rig.comm = None
+    rig.link.connection = None
     rig.model = {}
     rig.pushed = []
     rig.prompt.look()

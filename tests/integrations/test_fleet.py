@@ -45,8 +45,8 @@ class Printer:
             lambda: self.connection.mqtt_publish,
             lambda: f"shop/{name}/rrfmodel",
             lambda: self.model,
-            lambda: state,
-            lambda: self._now,
+            status=lambda: state,
+            clock=lambda: self._now,
         )
         self.connection.mqtt_publish(f"shop/{name}/mqtt", "connected", retained=True)
 

@@ -9,6 +9,7 @@ from octoprint_rrfmodel.integrations.layer_progress import (
     MESSAGE,
     SHORTEST_SECONDS,
     LayerProgress,
+    Readers,
     StreamedPrint,
     streamed_print,
 )
@@ -70,13 +71,15 @@ class Rig:
         self.sent = []
         self.fired = []
         self.part = LayerProgress(
-            lambda message, payload: self.sent.append((message, payload)),
-            lambda event, payload: self.fired.append((event, payload)),
+            Readers(
+                send=lambda message, payload: self.sent.append((message, payload)),
+                fire=lambda event, payload: self.fired.append((event, payload)),
+            ),
             lambda: self.model,
             lambda: self.streamed,
-            lambda: self.is_wanted,
-            lambda: self.now,
-            lambda: NOW,
+            is_wanted=lambda: self.is_wanted,
+            clock=lambda: self.now,
+            now=lambda: NOW,
         )
 
     def tick(self, seconds=SHORTEST_SECONDS):

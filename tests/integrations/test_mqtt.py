@@ -32,8 +32,8 @@ class Rig:
             lambda: self.helper,
             lambda: self.topic,
             lambda: self.model,
-            lambda: self.status,
-            lambda: self.now,
+            status=lambda: self.status,
+            clock=lambda: self.now,
         )
 
     def tick(self, seconds=SHORTEST_SECONDS):

@@ -1,10 +1,12 @@
 """The glue about the card, on a connection that only remembers."""
 
+from types import SimpleNamespace
+
 import pytest
 
 pytest.importorskip("octoprint")
 
-from octoprint_rrfmodel.link.serial.comm import SWALLOWED
+from octoprint_rrfmodel.host.tags import SWALLOWED
 from octoprint_rrfmodel.link.serial.sdcard import LONG_NAMES, SdCard
 from octoprint_rrfmodel.link.serial.sdjob import CANCEL_SECONDS, PREFIX, SdJob
 from octoprint_rrfmodel.link.serial.sdupload import UploadRefusal
@@ -78,18 +80,20 @@ class Bench:
         self.sent = []
         self.now = 0.0
         self.is_current = True
-        job = SdJob(lambda: self.model, lambda: self.is_current, self.sent.append, lambda: self.now)
+        job = SdJob(lambda: self.model, lambda: self.is_current, self._send, clock=lambda: self.now)
         self.plan = CardPlan()
         self.switched_off = set()
         self.card = SdCard(
             self.plan,
             job,
-            lambda: self.comm,
-            lambda: self.model,
-            lambda *command: "else",
-            lambda row: row not in self.switched_off,
+            SimpleNamespace(connection=self.comm),
+            model=lambda: self.model,
+            is_reworded=lambda row: row not in self.switched_off,
         )
         self.card.identified()
+
+    def _send(self, lines, tags):
+        self.sent += lines
 
     def list(self, *names):
         self.plan.refetch()
@@ -103,7 +107,7 @@ class Bench:
             "seqs": {"volChanges": [1]},
             "job": {"file": FILE, "filePosition": 123},
         }
-        self.card.on_news()
+        self.card.replied(None, 0.0)
 
     def job_of_the_machine(self):
         """Return the alias of a listed file that the board begins to print by itself."""
@@ -173,18 +177,18 @@ def test_other_lines_come_through_a_list(bench):
 def test_list_that_has_changed_is_asked_for_once_the_print_is_over(bench):
     bench.comm.state = "printing"
     bench.list("a.gcode")
-    bench.card.on_news()
+    bench.card.replied(None, 0.0)
     assert bench.comm.called == []
     bench.comm.state = "operational"
-    bench.card.on_news()
-    bench.card.on_news()
+    bench.card.replied(None, 0.0)
+    bench.card.replied(None, 0.0)
     assert bench.comm.called == ["refresh"]
 
 
 def test_card_that_was_not_heard_of_is_asked_for_once(bench):
     bench.comm.is_ready = False
-    bench.card.on_news()
-    bench.card.on_news()
+    bench.card.replied(None, 0.0)
+    bench.card.replied(None, 0.0)
     assert bench.comm.called == ["init"]
 
 
@@ -218,7 +222,7 @@ def test_name_becomes_a_path(bench, command, tag):
 
 
 def test_other_commands_are_for_others(bench):
-    assert bench.card.translate("M105", "M105", {"trigger:comm.poll_temperature"}) == "else"
+    assert bench.card.translate("M105", "M105", {"trigger:comm.poll_temperature"}) is None
 
 
 def test_cancelling_pauses_and_ends(bench):
@@ -324,13 +328,16 @@ def test_job_of_the_machine_is_not_shown_before_octoprint_has_heard_its_name(ben
 
 def test_upload_of_another_plugin_fails_at_once():
     failed = []
-    refusal = UploadRefusal(lambda: True)
+    refusal = UploadRefusal(SimpleNamespace(is_rrf=True))
     name = refusal.on_upload(
         None, "a.gcode", "/tmp/a.gcode", None, None, lambda *names: failed.append(names)
     )
     assert name == "a.gcode"
     assert failed == [("a.gcode", "a.gcode", 0)]
-    assert UploadRefusal(lambda: False).on_upload(None, "a", "a", None, None, None) is None
+    assert (
+        UploadRefusal(SimpleNamespace(is_rrf=False)).on_upload(None, "a", "a", None, None, None)
+        is None
+    )
 
 
 def test_no_file_is_told_before_octoprint_has_it_in_its_list(bench):

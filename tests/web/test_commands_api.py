@@ -67,36 +67,34 @@ def test_commands_a_second_are_bounded():
 
 
 class Host:
-    """OctoPrint and the connection as far as commands see them."""
+    """The link as far as commands see it."""
 
     def __init__(self, machine):
         self.sent = []
         self.looked = []
         self.machine = machine
-        self.connection = None
-        self.is_rrf = True
+        self.is_rrf = self.is_operational = True
         self.commands_to = MachineCommands(
-            lambda: self,
-            lambda: None,
-            lambda: self,
+            self,
             lambda: self.machine,
-            SimpleNamespace(is_waiting=False),
-            SimpleNamespace(refusal=lambda: "Not now."),
-            lambda: ("M25", "M400 M0"),
-            self.looked.append,
-            lambda: 0.0,
+            SimpleNamespace(is_waiting=False, is_answered=lambda: False),
+            recovery=SimpleNamespace(refusal=lambda: "Not now."),
+            look=self.looked.append,
+            rate=Rate(lambda: 0.0),
         )
-
-    def is_operational(self):
-        return True
 
     def has_a_print(self):
         return False
 
+    is_paused = has_a_print
+
+    def carried(self, lines, machine):
+        return list(lines)
+
     def is_streaming_a_print(self):
         return False
 
-    def commands(self, lines, tags):
+    def send(self, lines, tags):
         self.sent.append((lines, tags))
 
 

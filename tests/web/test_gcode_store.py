@@ -17,10 +17,11 @@ class Store:
     def __init__(self, form):
         self.responded = []
         self.is_rrf = True
-        self.store = GcodeStore(
-            lambda: self.is_rrf, lambda command: command == POLL, self.responded.append
-        )
+        self.store = GcodeStore(self, self.responded.append)
         self.out, self.into = FORMS[form]
+
+    def has_polled(self, command):
+        return command == POLL
 
     def log(self, *lines):
         for line in lines:

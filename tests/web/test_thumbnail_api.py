@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("octoprint")
 
+from octoprint_rrfmodel.host.answers import RequestRefused
 from octoprint_rrfmodel.rrf.card.thumbnail import Piece, PrintFile, Thumbnail
 from octoprint_rrfmodel.rrf.wire.request import FileRequest
-from octoprint_rrfmodel.web.live_api import Refused
 from octoprint_rrfmodel.web.thumbnail_api import ATTEMPTS, Thumbnails
 
 PATH = "0:/gcodes/a.gcode"
@@ -81,7 +81,7 @@ def test_a_picture_that_stays_broken_is_none():
     async def ask():
         thumbnails = Thumbnails(card, dict)
         for _ in range(3):
-            with pytest.raises(Refused):
+            with pytest.raises(RequestRefused):
                 await thumbnails.of(PATH)
 
     run(ask())

@@ -5,9 +5,10 @@ have them under the same names.
 """
 
 from octoprint.events import Events
-from octoprint.util.version import is_octoprint_compatible
 
-SHOWS_TOOL = is_octoprint_compatible(">=2.0.0rc1")
+from ...host.version import IS_2
+
+SHOWS_TOOL = IS_2
 """Whether OctoPrint shows a current tool, and wants to be told it like a position."""
 
 KEEP = None
@@ -17,26 +18,34 @@ KEEP = None
 class Display:
     """Keeps OctoPrint's own view of the printer right.
 
-    ``connection()`` is OctoPrint's connection to a board with RepRapFirmware, else ``None``.
-    ``temperatures()`` gives what the model says of heat, ``None`` while it says nothing, whether
-    that is fresh, and whether it is newer than the last command that gave a heater a target.
-    ``fire(event, payload)`` is OctoPrint's event bus.
+    ``link`` is the ``SerialLink``, ``known`` what is known of the machine, ``is_stale()`` says
+    whether that is too old to be shown. ``fire(event, payload)`` is OctoPrint's event bus.
     """
 
-    def __init__(self, connection, temperatures, fire):
-        self._connection = connection
-        self._temperatures = temperatures
+    def __init__(self, link, known, is_stale, *, fire):
+        self._link = link
+        self._known = known
+        self._is_stale = is_stale
         self._fire = fire
+
+    ##~~ a listener
+
+    def replied(self, taken, asked_at):
+        """Show the current tool, unless it was asked for before OctoPrint last selected one."""
+        tool = self._known.model().get("state", {}).get("currentTool")
+        if isinstance(tool, int) and self._known.asked_at > self._link.tool_command_at:
+            self.follow_tool(tool)
 
     ##~~ octoprint.comm.protocol.temperatures.received
 
     def on_temperatures(self, comm, parsed, *args, **kwargs):
         """Return the report with the model's tools, bed, chamber and sensors in it."""
-        if comm is not self._connection():
+        if comm is not self._link.connection:
             return parsed
-        known, is_fresh, knows_targets = self._temperatures()
+        known, knows_targets = self._known.heat()
         if known is None:
             return parsed
+        is_fresh = not self._is_stale()
         # a report has T for the current tool, and OctoPrint takes that for T0 where there is
         # none: only the model knows the numbers
         merged = {name: value for name, value in parsed.items() if not name.startswith("T")}
@@ -65,7 +74,7 @@ class Display:
 
     def show_target(self, heater, target):
         """Show the target of ``tool<n>``, ``bed`` or ``chamber`` that a command is about to set."""
-        comm = self._connection()
+        comm = self._link.connection
         if comm is None:
             return
         known = comm.last_temperature
@@ -81,7 +90,7 @@ class Display:
 
     def follow_tool(self, number):
         """Show the current tool where a macro or another panel changed it; there is no "none"."""
-        comm = self._connection()
+        comm = self._link.connection
         if comm is None or number < 0:
             return
         old = comm.getCurrentTool()

@@ -7,14 +7,15 @@ have them under the same names. ``translate`` runs with whoever queues a command
 
 import collections
 
+from ...host.tags import SWALLOWED
+from ...host.version import IS_2
 from ...rrf.card.listing import PRINTABLE, ROOT, CardFile, path_of
 from ...rrf.card.wording import BEGINNINGS, LIST_BEGINS, LIST_ENDS, reword
 from ...rrf.gcode.operations import Lines
 from ...rrf.wire.gcode_words import quoted
-from .comm import SWALLOWED
-from .sdjob import IS_VERSION_2, PREFIX, is_listed
+from .sdjob import PREFIX, is_listed
 
-if IS_VERSION_2:
+if IS_2:
     from octoprint.plugins.serial_connector.serial_comm import SDFileData
 else:
     from octoprint.util.comm import SDFileData
@@ -43,18 +44,15 @@ with it 2.0 makes no short names of those it is given."""
 class SdCard:
     """Lists the card for OctoPrint and maps the names that it uses.
 
-    ``plan`` is a ``CardPlan``, ``job`` an ``SdJob``. ``connection()`` is OctoPrint's connection to
-    a board with RepRapFirmware, else ``None``. ``model()`` is the snapshot.
-    ``translate(cmd, gcode, tags)`` looks at commands that have nothing to do with the card.
-    ``is_reworded(row)`` says whether a row of the table of replies is switched on.
+    ``plan`` is a ``CardPlan``, ``job`` an ``SdJob``. ``link`` is the ``SerialLink``, ``model()``
+    the snapshot. ``is_reworded(row)`` says whether a row of the table of replies is switched on.
     """
 
-    def __init__(self, plan, job, connection, model, translate, is_reworded):
+    def __init__(self, plan, job, link, *, model, is_reworded):
         self._plan = plan
         self._job = job
-        self._connection = connection
+        self._link = link
         self._model = model
-        self._translate = translate
         self._is_reworded = is_reworded
         self._forget()
 
@@ -82,7 +80,7 @@ class SdCard:
         self._plan.forget()
         self._job.forget()
         self._forget()
-        comm = self._connection()
+        comm = self._link.connection
         if comm is None:
             return
         if comm._serial_encoding == "ascii":
@@ -104,7 +102,7 @@ class SdCard:
             if REFRESH_TAG not in tags and not self._plan.notices_changes:
                 self._plan.refetch()
             return None
-        return self._translate(cmd, gcode, tags)
+        return None
 
     def end_job(self):
         """Return the lines that end the board's job, and see to it that they do."""
@@ -132,7 +130,7 @@ class SdCard:
         says = self._says
         if line[:2] not in self._looked_at and self._listed is None and not says:
             return line
-        comm = self._connection()
+        comm = self._link.connection
         if comm is None:
             return line
         if says and not line.strip():
@@ -190,7 +188,7 @@ class SdCard:
     @property
     def behind(self):
         """Whether there is something to ask about the card."""
-        comm = self._connection()
+        comm = self._link.connection
         return comm is not None and bool(comm._sdEnabled) and self._plan.behind
 
     def next_request(self):
@@ -207,9 +205,9 @@ class SdCard:
 
     ##~~ news
 
-    def on_news(self):
+    def replied(self, taken, asked_at):
         """Follow the board after each reply: its card and its job."""
-        comm = self._connection()
+        comm = self._link.connection
         if comm is None:
             return
         model = self._model()

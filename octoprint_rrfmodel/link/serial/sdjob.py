@@ -4,15 +4,12 @@
 receiving thread, ``news`` on the worker.
 """
 
-from octoprint.util.version import is_octoprint_compatible
-
+from ...host.version import IS_2
 from ...rrf.card.wording import Situation
 from ...rrf.gcode.operations import Lines
 from ...rrf.views.job import WITHOUT_JOB, CardJob, card_job
 
-IS_VERSION_2 = is_octoprint_compatible(">=2.0.0rc1")
-
-PREFIX = "" if IS_VERSION_2 else "/"
+PREFIX = "" if IS_2 else "/"
 """In front of names in OctoPrint's list of the card's files."""
 
 END_JOB = "M400 M0"
@@ -27,10 +24,10 @@ class SdJob:
     """Ends the board's job when OctoPrint's ends, and shows what is done to it at the machine.
 
     ``model()`` is the snapshot and ``is_current()`` whether it is newer than all that was sent.
-    ``send(line)`` gives a line to OctoPrint's queue.
+    ``send(lines, tags)`` gives lines to OctoPrint's queue.
     """
 
-    def __init__(self, model, is_current, send, clock):
+    def __init__(self, model, is_current, send, *, clock):
         self._model = model
         self._is_current = is_current
         self._send = send
@@ -70,7 +67,7 @@ class SdJob:
         if comm._sdFileToSelect:
             # without the slash 1.11 doesn't find the file in its list
             comm._sdFileToSelect = PREFIX + comm._sdFileToSelect.lstrip("/")
-        if IS_VERSION_2 and not comm.isPrinting():
+        if IS_2 and not comm.isPrinting():
             # set when a print starts, and never taken back in 2.0 (serial_comm.py:3227)
             comm._ignore_select = False
 
@@ -134,7 +131,7 @@ class SdJob:
             self._cancelled_at = None
         elif job.is_paused and self._asks_again:
             self._asks_again = False
-            self._send(END_JOB)
+            self._send([END_JOB], set())
 
     def _follow(self, comm, index, job):
         self._has_told_end = False

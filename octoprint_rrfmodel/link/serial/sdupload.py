@@ -9,24 +9,24 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 from octoprint.filemanager import FileDestinations
 
-from ...web.model_api import refusal
+from ...host.answers import refusal
 
 UPLOAD, COMMAND = "api.uploadGcodeFile", "api.gcodeFileCommand"
 """Flask's names of the endpoints that a file can get to the printer by."""
 
 
 class UploadRefusal:
-    """Refuses uploads while ``is_rrf()``."""
+    """Refuses uploads while ``link`` leads to a board with RepRapFirmware."""
 
-    def __init__(self, is_rrf):
-        self._is_rrf = is_rrf
+    def __init__(self, link):
+        self._link = link
 
     def refuse(self):
         """Return an answer for an upload to the printer, ``None`` for every other request."""
         request = flask.request
         if request.method != "POST" or request.endpoint not in (UPLOAD, COMMAND):
             return None
-        if not self._is_rrf() or not Permissions.FILES_UPLOAD.can():
+        if not self._link.is_rrf or not Permissions.FILES_UPLOAD.can():
             return None
         if request.endpoint == UPLOAD:
             is_refused = request.view_args.get("target") == FileDestinations.SDCARD
@@ -41,7 +41,7 @@ class UploadRefusal:
 
     def on_upload(self, printer, filename, path, started, succeeded, failed, *args, **kwargs):
         """Let an upload that another plugin begins fail at once (1.11's hook)."""
-        if not self._is_rrf():
+        if not self._link.is_rrf:
             return None
         failed(filename, filename, 0)
         return filename

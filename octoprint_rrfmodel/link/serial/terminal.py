@@ -96,21 +96,24 @@ class PollTrace:
 class TerminalFilter:
     """Takes polls out of the lines that go to each client.
 
-    ``is_on()`` says whether to, ``is_poll(command)`` whether the plugin sent it.
+    ``is_set("hide_polls")`` says whether to, ``link`` what the plugin has sent.
     """
 
-    def __init__(self, is_on, is_poll):
-        self._is_on = is_on
-        self._is_poll = is_poll
+    def __init__(self, is_set, link):
+        self._is_set = is_set
+        self._link = link
         self._clients = weakref.WeakKeyDictionary()
 
     def on_emit(self, socket, user, message, payload, *args, **kwargs):
         """Take the lines out of ``payload``; always let the message go (OctoPrint's hook)."""
-        if message in ("current", "history") and self._is_on():
+        if message in ("current", "history") and self._hides():
             logs = payload.get("logs") if payload else None
             if logs:
                 if message == "history" or socket not in self._clients:
-                    self._clients[socket] = PollTrace(self._is_poll)
+                    self._clients[socket] = PollTrace(self._link.has_polled)
                 hides = self._clients[socket].hides
                 payload["logs"] = [line for line in logs if not hides(line)]
         return True
+
+    def _hides(self):
+        return self._link.has_polled_at_all() and self._is_set("hide_polls")

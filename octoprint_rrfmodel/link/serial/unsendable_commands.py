@@ -17,7 +17,7 @@ class UnsendableCommands:
     of the table is switched on. ``refused(code, detail)`` and ``paused(message)`` only take note.
     """
 
-    def __init__(self, machine, is_on, refused, paused):
+    def __init__(self, machine, is_on, refused, *, paused):
         self._machine = machine
         self._is_on = is_on
         self._refused = refused

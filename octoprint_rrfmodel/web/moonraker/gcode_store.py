@@ -27,14 +27,14 @@ SENT_LINE = ("Send", ">>> ")
 class GcodeStore(PrinterCallback):
     """Keeps the latest commands and responses, in Moonraker's form.
 
-    ``is_rrf()`` says whether there is anything to keep, ``is_poll(command)`` whether the plugin
-    sent it; ``responded(text)`` is called with each response, on the thread of OctoPrint's that
+    ``link`` says whether there is anything to keep, and whether the plugin sent a command;
+    ``responded(text)`` is called with each response, on the thread of OctoPrint's that
     hears it.
     """
 
-    def __init__(self, is_rrf, is_poll, responded):
-        self._is_rrf = is_rrf
-        self._trace = PollTrace(is_poll)
+    def __init__(self, link, responded):
+        self._link = link
+        self._trace = PollTrace(link.has_polled)
         self._responded = responded
         self._wants_temperatures = False
         self._lines = collections.deque(maxlen=MOST_LINES)
@@ -48,7 +48,7 @@ class GcodeStore(PrinterCallback):
 
     def on_printer_add_log(self, data):
         """Take a line of OctoPrint's log (OctoPrint's callback)."""
-        if not self._is_rrf():
+        if not self._link.is_rrf:
             return
         if not self._trace.is_open and (data in PLAIN or (" G" in data and data[:4] in SENT_LINE)):
             return

@@ -4,10 +4,9 @@ import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
+from ...host.answers import RequestRefused, answer, may_read
 from ...rrf import klipper
-from ..model_api import answer, may_read
 from .gcode_store import MOST_LINES
-from .scripts import Refused
 
 KEY_ARGUMENT = "apikey"
 """OctoPrint's own argument, which is no object."""
@@ -25,7 +24,7 @@ class MoonrakerApi:
     ``websocket_count()`` is the number of open sockets.
     """
 
-    def __init__(self, objects, scripts, store, websocket_count):
+    def __init__(self, objects, scripts, store, *, websocket_count):
         self._objects = objects
         self._scripts = scripts
         self._store = store
@@ -73,7 +72,7 @@ class MoonrakerApi:
         script = data.get("script") if isinstance(data, dict) else None
         try:
             self._scripts.run(arguments.get("script", script))
-        except Refused as error:
+        except RequestRefused as error:
             return failure(error.status, str(error))
         return answer({"result": "ok"})
 

@@ -8,34 +8,45 @@ from ...rrf import klipper
 class PrinterObjects:
     """Answers about printer objects from what is known; any thread may ask.
 
-    ``follower`` has the model, ``is_connected()`` says whether RepRapFirmware is at the line's
-    other end, ``job()`` gives OctoPrint's own job, ``clock()`` the time in seconds that clients
-    get as ``eventtime``, ``version()`` the plugin's.
+    ``follower`` has the model, ``link`` leads to the board, ``job()`` gives OctoPrint's own job,
+    ``clock()`` the time in seconds that clients get as ``eventtime``, ``version()`` the plugin's.
     """
 
-    def __init__(self, follower, is_connected, job, clock, version):
+    def __init__(self, follower, link, job, *, clock, version):
         self._follower = follower
-        self._is_connected = is_connected
+        self._link = link
         self._job = job
         self._clock = clock
         self._version = version
         self._kept = klipper.Kept()
 
-    ##~~ on the worker
+    ##~~ a listener
 
-    def replied(self):
+    def replied(self, taken, asked_at):
         """Take a reply's news into what is kept from one to the next."""
+        self._observe()
+
+    def reset(self):
+        """Begin anew with a board that did."""
+        self.forgotten()
+        self._observe()
+
+    def _observe(self):
         self._kept.observe(self._follower.store.model, self._host(), self._clock())
 
-    def heard(self, line):
+    def line(self, line):
         """Note a line that the printer said."""
         self._kept.heard(line)
 
-    def forget(self):
+    def forgotten(self):
         """Know nothing: the connection is gone."""
         self._kept.forget()
 
     ##~~ what others ask
+
+    def is_connected(self):
+        """Return whether a board with RepRapFirmware is at the line's other end."""
+        return self._link.is_operational and self._link.is_rrf
 
     def world(self):
         """Return what objects are computed from, as it is now."""
@@ -65,7 +76,7 @@ class PrinterObjects:
 
     def _host(self):
         return klipper.Host(
-            is_connected=self._is_connected(),
+            is_connected=self.is_connected(),
             is_ready=self._follower.ready,
             has_protocol=not self._follower.is_mute,
             job=self._job(),

@@ -2,6 +2,7 @@
 
 from flask_babel import gettext
 
+from ...host.answers import RequestRefused
 from ...host.tags import SCRIPT_TAG
 
 MOST_LINES = 50
@@ -10,32 +11,26 @@ LONGEST_LINE = 200
 """Characters of a line; the firmware's buffer holds 256 bytes (3.5 GCodes.h, MaxGCodeLength)."""
 
 
-class Refused(Exception):
-    """Something that is not done: an HTTP status and a sentence that says why."""
-
-    def __init__(self, status, text):
-        super().__init__(text)
-        self.status = status
-
-
 def lines_of(script):
-    """Return the lines of a script without blanks around them; raise ``Refused`` for a bad one."""
+    """Return the lines of a script without blanks around them; or raise ``RequestRefused``."""
     if not isinstance(script, str):
-        raise Refused(400, gettext("A script is a text with G-code, one command a line."))
+        raise RequestRefused(400, gettext("A script is a text with G-code, one command a line."))
     lines = [line.strip() for line in script.replace("\r\n", "\n").split("\n")]
     lines = [line for line in lines if line]
     if not lines:
-        raise Refused(400, gettext("The script holds no G-code."))
+        raise RequestRefused(400, gettext("The script holds no G-code."))
     if len(lines) > MOST_LINES:
-        raise Refused(400, gettext("The script has more than 50 lines. Upload it as a file."))
+        raise RequestRefused(
+            400, gettext("The script has more than 50 lines. Upload it as a file.")
+        )
     for line in lines:
         if not line.isprintable():
-            raise Refused(400, gettext("A line of the script holds a control character."))
+            raise RequestRefused(400, gettext("A line of the script holds a control character."))
         if len(line.encode("utf-8")) > LONGEST_LINE:
-            raise Refused(400, gettext("A line of the script is longer than 200 bytes."))
+            raise RequestRefused(400, gettext("A line of the script is longer than 200 bytes."))
         # OctoPrint takes a semicolon for the beginning of a comment, even between quotes
         if line.partition(";")[0].count('"') % 2:
-            raise Refused(
+            raise RequestRefused(
                 400,
                 gettext("A line of the script has a quote without its partner, or a ; in quotes."),
             )
@@ -55,18 +50,18 @@ class GcodeScripts:
         self._rate = rate
 
     def run(self, script):
-        """Queue the lines of a script; raise ``Refused``."""
+        """Queue the lines of a script; raise ``RequestRefused``."""
         lines = lines_of(script)
         self._check()
         if not self._rate.allows(len(lines)):
-            raise Refused(409, gettext("Too many commands at once. Try again in a second."))
+            raise RequestRefused(409, gettext("Too many commands at once. Try again in a second."))
         self._send(lines, {SCRIPT_TAG}, False)
 
     def emergency_stop(self):
-        """Stop the machine at once, past all queues; raise ``Refused``."""
+        """Stop the machine at once, past all queues; raise ``RequestRefused``."""
         self._check()
         self._send(["M112"], {SCRIPT_TAG}, True)
 
     def _check(self):
         if not self._is_connected():
-            raise Refused(409, gettext("No printer with RepRapFirmware is connected."))
+            raise RequestRefused(409, gettext("No printer with RepRapFirmware is connected."))

@@ -7,11 +7,11 @@ from urllib.parse import urlsplit
 
 import tornado.websocket
 
+from ...host.answers import RequestRefused
 from ...rrf import klipper
 from ..access import caller_of
 from . import jsonrpc
 from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
-from .scripts import Refused
 
 MOST_UNSENT = 4_000_000
 """Bytes that may wait for a reader; one that lets more pile up is dropped."""
@@ -102,7 +102,7 @@ class SocketHub:
     keeps who wants what; ``find_user(name)`` is OctoPrint's.
     """
 
-    def __init__(self, objects, scripts, subscribers, find_user):
+    def __init__(self, objects, scripts, subscribers, *, find_user):
         self._objects = objects
         self._scripts = scripts
         self._subscribers = subscribers
@@ -142,7 +142,7 @@ class SocketHub:
             raise RpcError(REFUSED, "You may not do that. Ask an administrator.")
         try:
             return run(socket, params)
-        except Refused as error:
+        except RequestRefused as error:
             code = INVALID_PARAMS if error.status == 400 else REFUSED
             raise RpcError(code, str(error)) from None
 

@@ -1,58 +1,56 @@
 """The plugin's state, as ``GET /plugin/rrfmodel/status`` and every push tell it."""
 
+UNIMPORTANT = frozenset(("age", "at", "revision", "counters"))
+"""Members of the state that change all the time and are worth no message of their own."""
+
 
 class PluginStatus:
-    """Puts the state together from those who know its parts; any thread may ask."""
+    """Puts the state together from those who know its parts; any thread may ask.
 
-    def __init__(self, version, bridge, poller, follower, is_connected, warnings, first_run, clock):
+    ``link`` is the line to the board, ``poller`` asks it, ``known`` is what has come of that.
+    ``warnings()`` are the warnings in their form, ``is_first_run()`` whether the wizard is due.
+    """
+
+    def __init__(self, version, link, poller, *, known, warnings, is_first_run):
         self._version = version
-        self._bridge = bridge
+        self._link = link
         self._poller = poller
-        self._follower = follower
-        self._is_connected = is_connected
+        self._known = known
         self._warnings = warnings
-        self._first_run = first_run
-        self._clock = clock
-        self._reported = {}
-
-    def reported(self, data):
-        """Note what the printer said about its firmware in answer to M115."""
-        self._reported = dict(data or {})
+        self._is_first_run = is_first_run
 
     def __call__(self):
         """Return the state in the shape of the public contract, section 2."""
-        follower, poller = self._follower, self._poller
-        applied_at = poller.applied_at
-        now = self._clock()
-        age = None if applied_at is None else round(now - applied_at, 2)
+        poller, link, age = self._poller, self._link, self._known.age()
+        follower = poller.follower
         return {
             "version": self._version(),
-            "connected": self._is_connected(),
-            "is_rrf": self._bridge.is_rrf,
+            "connected": link.is_operational,
+            "is_rrf": link.is_rrf,
             "protocol": follower.protocol,
-            "firmware": self._firmware() if self._bridge.is_rrf else None,
+            "firmware": self._firmware() if link.is_rrf else None,
             "ready": follower.ready,
             "stale": poller.is_stale(),
             "blocked": poller.blocked(),
-            "age": age,
-            "at": round(now, 3),
+            "age": None if age is None else round(age, 2),
+            "at": round(self._known.now(), 3),
             "revision": follower.store.revision,
             "resets": follower.resets,
             "counters": {
                 "polls": poller.polls,
                 "bytes": poller.bytes,
-                "rewritten": self._bridge.rewritten,
+                "rewritten": link.rewritten,
                 **follower.counters,
             },
             "warnings": self._warnings(),
-            "first_run": self._first_run(),
+            "first_run": self._is_first_run(),
         }
 
     def _firmware(self):
         """Return what M115 told; the model's version wins, it survives a firmware update."""
-        boards = self._follower.store.model.get("boards")
+        boards = self._known.model().get("boards")
         board = boards[0] if boards and isinstance(boards[0], dict) else {}
-        said = self._reported.get
+        said = self._link.reported.get
         return {
             "name": board.get("firmwareName") or said("FIRMWARE_NAME"),
             "version": board.get("firmwareVersion") or said("FIRMWARE_VERSION"),

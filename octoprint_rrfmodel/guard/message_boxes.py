@@ -1,0 +1,65 @@
+"""Message boxes: one that takes no answer over this line, and answers on their way."""
+
+from ..rrf.gcode.commands import identity_of_box
+from ..rrf.views.machine import Machine
+from ..rrf.views.warnings import UNANSWERABLE, alerts, loses_boxes
+
+ANSWER_SECONDS = 10.0
+"""Time after which an answer to a message box is no longer waited for."""
+
+
+class MessageBoxes:
+    """Remembers that the firmware asked for M292, until it answers something else again.
+
+    A macro that OctoPrint has started holds the line while its box is open, so that no reply can
+    tell of it. ``model()`` is the snapshot.
+    """
+
+    def __init__(self, model, clock):
+        self._model = model
+        self._clock = clock
+        self._opened_at = None
+        self._answered, self._answered_at = None, 0.0
+
+    @property
+    def is_open(self):
+        """Whether nobody can answer the box over this line."""
+        return self._opened_at is not None
+
+    @property
+    def is_waiting(self):
+        """Whether such a box is open, by the text or by the model."""
+        return self.is_open or UNANSWERABLE in alerts(self._model())
+
+    ##~~ a listener
+
+    def heard(self, what):
+        """Note the text that comes with a box."""
+        if what == "box" and loses_boxes(Machine(self._model()).version):
+            self._opened_at = self._clock()
+
+    def replied(self, taken, asked_at):
+        """Note a reply: asked for after the text, it shows that the line is free."""
+        if self._opened_at is not None and asked_at > self._opened_at:
+            self._opened_at = None
+
+    def forgotten(self):
+        """Know of no box: the connection is gone."""
+        self._opened_at = None
+
+    ##~~ answers, from any thread
+
+    def note_answer(self):
+        """Note that the box that the model shows is about to be answered."""
+        self._answered = identity_of_box(self._model())
+        self._answered_at = self._clock()
+
+    def is_answered(self):
+        """Return whether the model still shows the box that was answered last.
+
+        Before 3.5 an answer names no box: a second one would be for the next, which nobody has
+        read yet.
+        """
+        if self._answered is None or self._clock() - self._answered_at > ANSWER_SECONDS:
+            return False
+        return identity_of_box(self._model()) == self._answered

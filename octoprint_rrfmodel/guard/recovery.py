@@ -1,0 +1,66 @@
+"""Going on after an emergency stop: who may restart the board, on a thread of its own."""
+
+import logging
+import threading
+
+from flask_babel import gettext
+
+
+class Recovery:
+    """Restarts the board, one restart at a time; any thread may ask for one.
+
+    ``printer()`` is OctoPrint's, ``link`` reaches the board, ``machine()`` is the view of the
+    model. ``failed()`` is called when the board didn't come back.
+    """
+
+    def __init__(self, printer, link, machine, *, failed):
+        self._printer = printer
+        self._link = link
+        self._machine = machine
+        self._failed = failed
+        self._lock = threading.Lock()
+        self._logger = logging.getLogger("octoprint.plugins.rrfmodel.recovery")
+        self.is_wanted = False
+        """Whether the connection ended with the board halted."""
+
+    ##~~ a listener
+
+    def identified(self):
+        """Note that there is a board again; it tells by itself if it is halted."""
+        self.is_wanted = False
+
+    def forgotten(self):
+        """Note the end of a connection, while it is still known how the board was."""
+        if self._machine().is_halted:
+            self.halted()
+
+    def halted(self):
+        """Note that the board was stopped, and OctoPrint may have hung up on it."""
+        self.is_wanted = True
+
+    ##~~ any thread
+
+    def refusal(self):
+        """Return why there can be no restart now, ``None`` where there can."""
+        printer = self._printer()
+        if (printer.is_printing() and not printer.is_paused()) or self._machine().prints:
+            return gettext("The machine prints. Pause or cancel the print first.")
+        if printer.is_operational() and not self._link.is_rrf:
+            return gettext("The connected printer has not said that it runs RepRapFirmware.")
+        if not self._link.can_restart:
+            return gettext("No printer with RepRapFirmware was connected yet. Connect it first.")
+        return None
+
+    def start(self):
+        """Begin to restart the board, if that isn't under way."""
+        if self._lock.acquire(blocking=False):
+            threading.Thread(target=self._run, name="rrfmodel.recovery", daemon=True).start()
+
+    def _run(self):
+        try:
+            self._link.restart()
+        except Exception:
+            self._logger.exception("Could not restart the board")
+            self._failed()
+        finally:
+            self._lock.release()

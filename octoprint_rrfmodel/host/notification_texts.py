@@ -1,0 +1,32 @@
+"""What a person is told once: refusals of what was asked for, and what has happened."""
+
+from flask_babel import gettext
+
+
+def notification_text(code, detail):
+    """Return the sentence for a notification's code, with its detail in it."""
+    texts = {
+        "not_homed": gettext("Nothing was moved: home %(detail)s first."),
+        "no_tool_selected": gettext("Nothing was done: select a tool first."),
+        "too_cold": gettext("Nothing was extruded: tool %(detail)s is too cold. Heat it first."),
+        "no_such_tool": gettext("Nothing was done: the machine has no tool %(detail)s."),
+        "no_bed": gettext("Nothing was heated: the machine has no heated bed."),
+        "no_chamber": gettext("Nothing was heated: the machine has no heated chamber."),
+        "message_box": gettext(
+            "Not sent, nobody could answer it on this firmware: %(detail)s. Update the firmware to"
+            " 3.6.1 or newer."
+        ),
+        "debug_table": gettext(
+            "Not sent, the printer would not acknowledge it: %(detail)s. Use the machine's own"
+            " console."
+        ),
+        "print_paused": gettext("The print was paused. %(detail)s"),
+        "board_reset": gettext(
+            "The board was reset. Its axes have to be homed again, and its heaters are off."
+        ),
+        "recover_failed": gettext(
+            "The machine did not come back after its restart. Check its power and cable, then"
+            " connect."
+        ),
+    }
+    return texts[code] % {"detail": detail}

@@ -1,0 +1,85 @@
+"""OctoPrint's hook about what is about to be queued, on the thread of whoever queues it.
+
+Looks at tags and a G-code, hands over, returns; none of it waits.
+"""
+
+from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
+from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
+from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
+
+WATCHED = UNSENDABLE | {EMERGENCY_STOP}
+"""Commands that are looked at wherever they come from."""
+
+
+class QueuedCommands:
+    """Gives each command the form in which it is to go out.
+
+    ``notify("halted")`` must only take note and return. ``instead(cmd, gcode, tags)`` gives what
+    to queue for a command that had better not be sent. Each of ``translators`` is called
+    ``(cmd, gcode, tags)`` and gives what to queue for a command that isn't a file's; ``None`` of
+    any of them leaves it to the next, and in the end as it is.
+    """
+
+    def __init__(self, link, notify, instead, *, translators):
+        self._link = link
+        self._notify = notify
+        self._instead = instead
+        self._translators = translators
+
+    ##~~ octoprint.comm.protocol.gcode.queuing
+
+    def on_queuing(
+        self, comm, phase, cmd, cmd_type, gcode, subcode=None, tags=None, *args, **kwargs
+    ):
+        """Put an M105 behind each poll and in front of each command that blocks.
+
+        The firmware's report during a blocking command goes where the last status request came
+        from, and after M409 that is not this line (3.5 GCodes.cpp:4865). OctoPrint holds a lock
+        while it queues the list, so that no other command gets in between.
+        """
+        if comm is not self._link.connection:
+            return None
+        if gcode is None:
+            if not cmd.startswith("T"):
+                return None
+        elif gcode in WATCHED:
+            instead = self._watched(cmd, gcode, tags or ())
+            if instead is not None:
+                return self._queue(instead, cmd_type, gcode)
+        elif tags and FILE_TAG not in tags:
+            if POLL_TAG in tags and gcode != STATUS_REQUEST:
+                return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
+            translated = self._translate(cmd, gcode, tags)
+            if translated is not None:
+                return self._queue(translated, cmd_type, gcode)
+        if gcode is not None and gcode not in BLOCKING:
+            return None
+        return [(STATUS_REQUEST, None, {STATUS_TAG}), (cmd, cmd_type)]
+
+    def _watched(self, cmd, gcode, tags):
+        """Return what to queue instead; OctoPrint hangs up on an emergency stop."""
+        if gcode == EMERGENCY_STOP:
+            self._notify("halted")
+            return None
+        return self._instead(cmd, gcode, tags)
+
+    def _translate(self, cmd, gcode, tags):
+        for translate in self._translators:
+            translated = translate(cmd, gcode, tags)
+            if translated is not None:
+                return translated
+        return None
+
+    def _queue(self, translated, cmd_type, gcode):
+        """Return the lines of an operation in the hook's form."""
+        if not translated.lines:
+            return (None,)
+        self._link.rewritten += 1
+        if translated.heater:
+            last = translated.lines[-1]
+            self._link.targets[last] = translated.heater, translated.target
+        queued = [(line, cmd_type) for line in translated.lines]
+        if gcode in BLOCKING:
+            queued.insert(0, (STATUS_REQUEST, None, {STATUS_TAG}))
+        return queued

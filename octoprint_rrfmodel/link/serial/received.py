@@ -1,0 +1,119 @@
+"""OctoPrint's hooks about what comes in: look at a line, hand over, return.
+
+They run on OctoPrint's receiving thread, which the print waits for. None of them decodes, waits,
+or raises.
+"""
+
+from ...host.tags import SWALLOWED
+from ...rrf.card.wording import BEGINNINGS, LIST_BEGINS
+from ...rrf.gcode.blocking import SETTLING
+from ...rrf.wire.errors import is_halted, is_serious
+from ...rrf.wire.heard import TELLING, heard
+from ...rrf.wire.line import VOLTAGE_WARNING, find_reply, without_warning
+
+ATTENDED = TELLING | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
+"""First letters of lines that are looked at; most lines begin otherwise and cost little."""
+
+
+class ReceivedLines:
+    """Takes the board's JSON out of what OctoPrint hears, and finds out whose board it is.
+
+    ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
+    ``identified``, ``halted`` and ``heard`` (what); it must only take note and return.
+    ``card.reword(line)`` gives a line in words that OctoPrint knows, ``card.fill()`` one in the
+    place of a line that was the plugin's alone. ``guards(error)`` says whether a serious error
+    only pauses the print.
+    """
+
+    def __init__(self, link, card, notify, *, guards):
+        self._link = link
+        self._card = card
+        self._notify = notify
+        self._guards = guards
+
+    ##~~ octoprint.comm.protocol.firmware.info
+
+    def on_firmware_info(self, comm, firmware_name, data, *args, **kwargs):
+        """Find out whether this is RepRapFirmware; until then no line is touched.
+
+        1.11 calls this for every line with a NAME in it, 2.0 once, and either may give no name:
+        a connection that was known to be RepRapFirmware stays so.
+        """
+        link = self._link
+        link.reported = dict(data or {})
+        if comm is link.connection:
+            return
+        link.forget()
+        if "reprapfirmware" in (firmware_name or "").lower():
+            link.is_known_now(comm)
+            self._notify("identified")
+
+    ##~~ octoprint.comm.protocol.gcode.received
+
+    def on_received(self, comm, line, *args, **kwargs):
+        """Return the line without the board's JSON, which goes to the worker."""
+        link = self._link
+        if comm is not link.connection:
+            return line
+        if '{"' not in line:
+            if line[:1] == "o" and link.surplus.awaits is None:
+                if link.awaited is not None and line.startswith("ok"):
+                    link.acknowledged(link.awaited in SETTLING)
+                return line
+            if (
+                line[:1] in ATTENDED
+                or link.surplus.awaits is not None
+                or link.expects_refusal
+                or self._card.is_talking
+            ):
+                return self._text(line)
+            return line
+        found = find_reply(line)
+        if found is None or (found.is_of_a_file and not link.asks_of_a_file):
+            return line
+        self._notify("reply", found.reply)
+        if not found.rest:
+            return self._card.fill()
+        if found.rest.startswith("ok"):
+            link.acknowledged(link.awaited in SETTLING)
+        return found.rest
+
+    def _text(self, line):
+        """Return a line that holds no JSON and is no plain ok, as OctoPrint is to read it."""
+        link = self._link
+        if line[:1] in TELLING:
+            told = heard(line)
+            if told:
+                self._notify("heard", told)
+            if line.startswith(VOLTAGE_WARNING):
+                # OctoPrint sees an ok only where a line starts with it, and waits half a minute
+                line = without_warning(line)
+        if link.surplus.awaits is not None and link.surplus.is_in(line):
+            return SWALLOWED
+        if line.startswith("ok"):
+            link.acknowledged(link.awaited in SETTLING)
+            return line
+        if link.expects_refusal and ("M409" in line or "M408" in line):
+            self._notify("refused", line)
+            return line
+        return self._card.reword(line)
+
+    ##~~ octoprint.comm.protocol.gcode.error
+
+    def on_error(self, comm, message, *args, **kwargs):
+        """Return True for an error that is no reason to stop: a command was refused, no more.
+
+        A halted board answers the very first command so, before it can say what it is. A serious
+        one ends a print that isn't paused because of it; else there is nothing to end, and only
+        a connection shows what is wrong.
+        """
+        if is_halted(message):
+            ends = comm.isPrinting()
+        elif comm is not self._link.connection:
+            return False
+        else:
+            ends = is_serious(message) and comm.isPrinting() and not self._guards(message)
+        if ends:
+            # OctoPrint sends M112 and hangs up
+            self._notify("halted")
+        return not ends

@@ -1,0 +1,57 @@
+"""OctoPrint's hook about what is about to leave, on the thread that sends a print's lines."""
+
+from ...host.tags import FILE_TAG, POLL_TAG
+from ...rrf.gcode.blocking import TARGETING
+from .serial_link import STATUS_REQUEST
+from .surplus import count_ok
+
+
+class SentCommands:
+    """Notes what the board is about to be busy with.
+
+    ``notify(name, *arguments)`` is called with ``poll_sent`` (when) and ``poll_acknowledged``; it
+    must only take note and return. ``show_target(heater, target)`` shows the target that a
+    translated command sets. ``sent(cmd, tags)`` is told of commands that are neither a file's nor
+    the plugin's polls.
+    """
+
+    def __init__(self, link, notify, clock, *, show_target, sent):
+        self._link = link
+        self._notify = notify
+        self._clock = clock
+        self._show_target = show_target
+        self._sent = sent
+
+    ##~~ octoprint.comm.protocol.gcode.sending
+
+    def on_sending(
+        self, comm, phase, cmd, cmd_type, gcode, subcode=None, tags=None, *args, **kwargs
+    ):
+        """Note what the printer is about to be busy with."""
+        link = self._link
+        if comm is not link.connection:
+            return None
+        if gcode is None and cmd.startswith("T"):
+            gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
+            count_ok(comm)
+        link.awaited = gcode
+        link.awaited_command = cmd
+        now = link.awaited_since = self._clock()
+        link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
+        link.surplus.sending(cmd, gcode)
+        if gcode in TARGETING or cmd in link.targets:
+            link.target_command_at = now
+        if cmd in link.targets:
+            self._show_target(*link.targets.pop(cmd))
+        if gcode in ("T", "M109"):
+            link.tool_command_at = now
+        if tags and FILE_TAG not in tags:
+            if POLL_TAG not in tags:
+                self._sent(cmd, tags)
+            elif gcode == STATUS_REQUEST:
+                # it leaves when OctoPrint has the ok of the poll in front of it
+                self._notify("poll_acknowledged")
+            else:
+                link.polled.add(cmd)
+                self._notify("poll_sent", now)
+        return None

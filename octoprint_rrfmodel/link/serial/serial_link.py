@@ -1,0 +1,204 @@
+"""OctoPrint's serial line as a link; the only part that knows OctoPrint's connection for others.
+
+The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
+"""
+
+import threading
+
+from ...host.tags import POLL_TAG
+from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.wire.gcode_words import words
+from ..link import Doing, Link
+from .restart import Connection, restart
+from .surplus import SurplusOk
+from .terminal import RecentPolls
+
+STATUS_REQUEST = "M105"
+
+EMERGENCY_STOP = "M112"
+
+CARD_JOB = {
+    "pause": ("pause_print", lambda comm: comm.isPrinting()),
+    "resume": ("resume_print", lambda comm: comm.isPaused()),
+    "cancel": ("cancel_print", lambda comm: comm.isPrinting() or comm.isPaused()),
+}
+"""What is done to a job, to the method of OctoPrint's printer that does it to a print from the
+card, and whether it does anything in the connection's state."""
+
+SLOTS = (
+    ("M140 ", "heatedBed", "bedHeaters"),
+    ("M141 ", "heatedChamber", "chamberHeaters"),
+)
+"""Command, what OctoPrint's printer profile calls the heater, and its slots in the model."""
+
+
+class SerialLink(Link):
+    """Knows OctoPrint's connection from its telling that it is RepRapFirmware to its end.
+
+    ``printer()`` and ``profiles()`` are OctoPrint's.
+    """
+
+    kind = "serial"
+    channel = "USB"
+
+    def __init__(self, printer, profiles, clock):
+        self._printer = printer
+        self._profiles = profiles
+        self._clock = clock
+        self._card = None
+        self._last = None
+        self.polled = RecentPolls()
+        self.was_identified = threading.Event()
+        """Set when a board tells what it is; a restart waits for that."""
+        self.forget()
+
+    def attach(self, card):
+        """Take the card (``SdCard``), which asks this link and so is made later."""
+        self._card = card
+
+    def forget(self):
+        self.connection = None
+        self.awaited = None
+        """G-code of the command whose acknowledgement is awaited."""
+        self.awaited_command = ""
+        self.awaited_since = 0.0
+        self.asks_of_a_file = False
+        self.targets = {}
+        """Line that is to go out to the heater and the target that it sets."""
+        self.surplus = SurplusOk()
+        self.expects_refusal = False
+
+    def is_known_now(self, comm):
+        """Begin with a connection that has told that it is RepRapFirmware."""
+        self.forget()
+        self.connection = comm
+
+    def acknowledged(self, settles):
+        """Note that the awaited command is through; ``settles`` if it may have changed much."""
+        if settles:
+            self.settled_at = self._clock()
+        self.awaited = None
+
+    ##~~ a listener
+
+    def identified(self):
+        """Note what OctoPrint is connected with, for a restart."""
+        self.was_identified.set()
+        comm = self.connection
+        if comm is not None:
+            profile = self._profiles().get_current_or_default()["id"]
+            self._last = Connection(*comm.getConnection(), profile)
+
+    ##~~ Link
+
+    @property
+    def is_operational(self):
+        return self._printer().is_operational()
+
+    def ask(self, request):
+        self._printer().commands(request.line, tags={POLL_TAG})
+
+    def send(self, lines, tags, force=False):
+        self._printer().commands(lines, tags=tags, force=force)
+
+    def stop_now(self, tags):
+        # past all queues, as what OctoPrint streams is one
+        self.send([EMERGENCY_STOP], tags, force=True)
+
+    def carried(self, lines, machine):
+        """Return lines that OctoPrint sends and shows nothing wrong of.
+
+        It drops what its printer profile has no bed or chamber for, and shows the target of any
+        slot as that of the first. Behind another command on the same line it looks at neither.
+        """
+        return [self._carried(line, machine) for line in lines]
+
+    def _carried(self, line, machine):
+        comm = self.connection
+        for code, part, kind in SLOTS:
+            if comm is not None and line.startswith(code):
+                is_first = words(line).get("P") == machine.slot(kind)
+                return line if is_first and self.profile()[part] else f"M120 {line} M121"
+        if comm is not None and line.startswith("T") and not comm._validate_tool(int(line[1:])):
+            # the model has the tool, whatever number of extruders the printer profile has
+            comm._sanity_check_tools = False
+        return line
+
+    @property
+    def can_restart(self):
+        return self._last is not None
+
+    def restart(self):
+        restart(self, self._printer, self._last)
+
+    def blocked(self):
+        comm = self.connection
+        if comm is None:
+            return None
+        if comm.isStreaming() or comm._manualStreaming:
+            return "streaming"
+        if self.awaited is None:
+            # an unsolicited temperature lets OctoPrint think of heating; no ok would end that
+            return None
+        if comm._heating:
+            return "heating"
+        if comm._long_running_command or comm._dwelling_until or self.awaited in BLOCKING:
+            return "long_command"
+        return None
+
+    def doing(self):
+        if self.connection is None or self.awaited is None:
+            return None
+        return Doing(self.awaited_command, "other", self.awaited_since)
+
+    def has_polled(self, command):
+        return command in self.polled
+
+    def has_polled_at_all(self):
+        return bool(self.polled)
+
+    def rate(self):
+        comm = self.connection
+        rate = comm.getConnection()[1] if comm is not None else 0
+        return rate if isinstance(rate, int) else 0
+
+    def is_streaming_a_print(self):
+        comm = self.connection
+        return comm is not None and comm.isPrinting() and not comm.isSdFileSelected()
+
+    def has_a_print(self):
+        comm = self.connection
+        if comm is None or comm.isSdFileSelected():
+            return False
+        return comm.isPrinting() or comm.isPaused()
+
+    def is_printing(self):
+        return self.connection is not None and self.connection.isPrinting()
+
+    def is_paused(self):
+        return self.connection is not None and self.connection.isPaused()
+
+    def control_card_job(self, action):
+        method, does_it = CARD_JOB[action]
+        comm = self.connection
+        # what it shows as its own print must not end behind its back: it would cancel whatever is
+        # printed by then
+        if comm is None or not comm.isSdFileSelected() or not does_it(comm):
+            return False
+        getattr(self._printer(), method)()
+        return True
+
+    def end_job(self):
+        return self._card.end_job()
+
+    def has_card(self):
+        comm = self.connection
+        # where OctoPrint's settings say that there is none it answers by itself
+        return comm is not None and (comm.isSdReady() or not comm._sdEnabled)
+
+    def profile(self):
+        comm = self.connection
+        if comm is None:
+            return None
+        # 2.0 keeps the one that the connection was made with
+        return getattr(comm, "_printer_profile", None) or self._profiles().get_current_or_default()

@@ -1,0 +1,41 @@
+"""All that is served in Moonraker's forms, put together."""
+
+from functools import partial
+
+from ...host.streamed_job import StreamedJob
+from .gcode_store import GcodeStore
+from .moonraker_api import MoonrakerApi
+from .printer_objects import PrinterObjects
+from .scripts import GcodeScripts
+from .sockets import Sockets
+
+
+class Moonraker:
+    """Printer objects over HTTP and websocket, G-code of clients, and what was said.
+
+    ``host`` is OctoPrint (``host.host.Host``), ``follower`` has the model, ``link`` leads to the
+    board. ``notify("line", text)`` and ``notify("send", lines, tags, force)`` leave notes for the
+    worker, ``rate`` counts commands.
+    """
+
+    def __init__(self, host, follower, link, *, notify, rate, clock):
+        self._host = host
+        self.job = StreamedJob()
+        """OctoPrint's own job, which follows its events."""
+        self.objects = PrinterObjects(
+            follower, link, self.job.job, clock=clock, version=host.version
+        )
+        scripts = GcodeScripts(self.objects.is_connected, partial(notify, "send"), rate)
+        self.store = GcodeStore(link, partial(notify, "line"))
+        """What was said on the line; is told of each command that goes out."""
+        self.sockets = Sockets(self.objects, scripts, host.users, clock=clock)
+        self.job.attach(self.sockets.announce)
+        self.api = MoonrakerApi(
+            self.objects, scripts, self.store, websocket_count=self.sockets.count
+        )
+
+    def start(self):
+        """Begin to listen to OctoPrint."""
+        self._host.printer().register_callback(self.job)
+        self._host.printer().register_callback(self.store)
+        self._host.users().register_login_status_listener(self.sockets)

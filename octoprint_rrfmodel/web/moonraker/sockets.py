@@ -1,0 +1,91 @@
+"""What lets the sockets see what is new, from whatever thread it comes."""
+
+from octoprint.access.users import LoginStatusListener
+from tornado.ioloop import IOLoop
+
+from .subscribers import Subscribers
+from .websocket import PrinterSocket, SocketHub
+
+TICK_SECONDS = 1.0
+
+
+class Sockets(LoginStatusListener):
+    """Serves the websocket's route and hands news to Tornado's loop; a listener.
+
+    ``objects`` gives the printer objects, ``scripts`` sends G-code, ``users()`` is OctoPrint's
+    user manager.
+    """
+
+    def __init__(self, objects, scripts, users, *, clock):
+        self._objects = objects
+        self._scripts = scripts
+        self._users = users
+        self._clock = clock
+        self._ticked_at = 0.0
+        self._loop = None
+        self._is_announced = False
+        self._hub = None
+
+    def routes(self, app):
+        """Return what Tornado serves itself; OctoPrint asks on the thread of Tornado's loop."""
+        self._loop = IOLoop.current()
+        subscribers = Subscribers(self._objects.world, self._loop)
+        self._hub = SocketHub(self._objects, self._scripts, subscribers, find_user=self._find_user)
+        return [(r"/websocket", PrinterSocket, {"hub": self._hub, "app": app})]
+
+    def count(self):
+        """Return how many sockets are open."""
+        return len(self._hub.sockets) if self._hub is not None else 0
+
+    def announce(self):
+        """Let the sockets see what is new; many calls before they do are one."""
+        if self.count() and not self._is_announced:
+            self._is_announced = True
+            self._loop.add_callback(self._changed)
+
+    def _changed(self):
+        self._is_announced = False
+        self._hub.changed()
+
+    ##~~ a listener
+
+    def replied(self, taken, asked_at):
+        """Let the sockets see what a reply has changed."""
+        self.announce()
+
+    def reset(self):
+        """Let the sockets see that the board began anew."""
+        self.announce()
+
+    def line(self, text):
+        """Tell the sockets a line that the printer said."""
+        self._on_loop("responded", text)
+
+    def forgotten(self):
+        """Let the sockets see that nothing is known."""
+        self.announce()
+
+    def tick(self):
+        """Let sockets see what no reply tells, and look at who still may have one."""
+        due = self._ticked_at + TICK_SECONDS - self._clock()
+        if due > 0:
+            return due
+        self._ticked_at = self._clock()
+        self.announce()
+        self._on_loop("look_again")
+        return TICK_SECONDS
+
+    ##~~ LoginStatusListener
+
+    def on_user_logged_out(self, user, stale=False):
+        self._on_loop("logged_out", user)
+
+    def on_user_modified(self, user):
+        self._on_loop("look_again")
+
+    def _on_loop(self, name, *arguments):
+        if self.count():
+            self._loop.add_callback(getattr(self._hub, name), *arguments)
+
+    def _find_user(self, name):
+        return self._users().find_user(name)
