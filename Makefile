@@ -29,7 +29,7 @@ help:
 	@echo "make test           lint, then the tests in OctoPrint 1.11 and 2.0"
 	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
-	@echo "make lint           ruff and mypy; make format lets ruff put files in shape"
+	@echo "make lint           ruff, mypy and the floors; make format lets ruff put files in shape"
 	@echo "make bench          the measurements in tests/bench"
 	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000"
 	@echo "make translations   refresh messages.pot and the catalogues"
@@ -91,8 +91,9 @@ test-pure-py39: .venv/python-3.9/.ready
 
 lint: .venv/octoprint-1.11/.ready
 	@status=0; \
-	for check in "ruff check --quiet" "ruff format --check --quiet" mypy; do \
-		$(VENV_1.11)/bin/python -m $$check || { echo "lint: $$check failed"; status=1; }; \
+	for check in "python -m ruff check --quiet" "python -m ruff format --check --quiet" \
+		"python -m mypy" "lint-imports"; do \
+		$(VENV_1.11)/bin/$$check || { echo "lint: $$check failed"; status=1; }; \
 	done; \
 	exit $$status
 

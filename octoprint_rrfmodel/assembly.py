@@ -39,9 +39,9 @@ from .link.serial.sdupload import UploadRefusal
 from .link.serial.sent import SentCommands
 from .link.serial.serial_link import SerialLink
 from .link.serial.simulated_port import SimulatedPort
-from .link.serial.terminal import TerminalFilter
 from .link.serial.unsendable_commands import UnsendableCommands
 from .link.status import PluginStatus
+from .link.terminal import TerminalFilter
 from .link.worker import Worker
 from .rrf.card.listing import CardPlan
 from .rrf.follow.follower import Follower

@@ -1,11 +1,8 @@
-"""The borders: rrf needs the standard library alone, the simulator that and rrf."""
+"""What the floors don't say: circles, sizes, constructors, OctoPrint's private names."""
 
 import ast
-import importlib.util
 import subprocess
 import sys
-import sysconfig
-from pathlib import Path
 
 import pytest
 
@@ -14,15 +11,25 @@ from tests.support.places import ROOT
 PACKAGE = "octoprint_rrfmodel"
 RRF = f"{PACKAGE}.rrf"
 SIMULATOR = f"{PACKAGE}.simulator"
-
-# package -> the packages of the project that its modules may import from
-MAY_IMPORT = {RRF: (RRF,), SIMULATOR: (SIMULATOR, RRF)}
+SERIAL = f"{PACKAGE}.link.serial"
 
 FOREIGN = ("octoprint", "flask", "tornado")
 
-MAX_LINES = 300
-# module -> why it reads better in one piece
-LONG_FOR_A_REASON = {}
+CONNECTIONS = ("octoprint.util.comm", "octoprint.plugins.serial_connector")
+"""Modules of OctoPrint's that have its serial connection."""
+
+NOT_OCTOPRINTS = {
+    # of named tuples
+    "_asdict",
+    "_replace",
+    # of Flask-Login and Werkzeug
+    "_get_current_object",
+    "_load_user",
+}
+
+MOST_LINES = 300
+MOST_COLLABORATORS = 6
+MOST_BY_POSITION = 3
 
 
 def files_of(package):
@@ -34,60 +41,61 @@ def module_of(path):
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def imports_of(path):
-    """Return ``(line, absolute name)`` of each import, wherever in the module it stands."""
-    package = module_of(path).split(".")
-    if path.name != "__init__.py":
+TREES = {module_of(path): ast.parse(path.read_text("utf-8")) for path in files_of(PACKAGE)}
+PACKAGES = {module_of(path) for path in files_of(PACKAGE) if path.name == "__init__.py"}
+
+
+def imports_of(module):
+    """Return the absolute names that a module imports, wherever in it that stands."""
+    package = module.split(".")
+    if module not in PACKAGES:
         package.pop()
-    found = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    found = set()
+    for node in ast.walk(TREES[module]):
         if isinstance(node, ast.Import):
-            found += [(node.lineno, alias.name) for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            found.append((node.lineno, node.module))
+            found.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            base = package[: len(package) - node.level + 1]
-            names = [node.module] if node.module else [alias.name for alias in node.names]
-            found += [(node.lineno, ".".join([*base, name])) for name in names]
+            base = package[: len(package) - node.level + 1] if node.level else []
+            origin = ".".join([*base, *([node.module] if node.module else [])])
+            for alias in node.names:
+                name = f"{origin}.{alias.name}"
+                found.add(name if name in TREES else origin)
     return found
-
-
-def is_standard(name):
-    """Return whether the module comes with Python."""
-    top = name.partition(".")[0]
-    # Python 3.9 has no list of them
-    if hasattr(sys, "stdlib_module_names"):
-        return top in sys.stdlib_module_names
-    spec = importlib.util.find_spec(top)
-    origin = spec.origin if spec else None
-    if origin in ("built-in", "frozen"):
-        return True
-    standard = Path(sysconfig.get_path("stdlib"))
-    return origin is not None and standard in Path(origin).parents and "-packages" not in origin
 
 
 def is_below(name, package):
     return name == package or name.startswith(package + ".")
 
 
-@pytest.mark.parametrize(
-    ("package", "path"),
-    [(package, path) for package in MAY_IMPORT for path in files_of(package)],
-    ids=lambda value: module_of(value) if isinstance(value, Path) else "",
-)
-def test_module_stays_on_its_side(package, path):
-    crossing = [
-        f"line {line}: {name}"
-        for line, name in imports_of(path)
-        if not is_standard(name)
-        and not any(is_below(name, allowed) for allowed in MAY_IMPORT[package])
-    ]
-    assert not crossing
+def circle_from(module, arrows):
+    """Return the modules on a way from one back to itself, ``None`` where there is none."""
+    ways, seen = [[module]], set()
+    while ways:
+        way = ways.pop()
+        for target in arrows[way[-1]]:
+            if target == module:
+                return way
+            if target not in seen:
+                seen.add(target)
+                ways.append([*way, target])
+    return None
 
 
-@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_no_import_runs_in_a_circle():
+    """Those for type checkers count, which whoever reads follows too."""
+    # what a package's own file hands on is in its modules
+    arrows = {
+        module: {name for name in imports_of(module) if name in TREES and name != module}
+        for module in TREES
+    }
+    circles = {tuple(sorted(circle)) for module in TREES if (circle := circle_from(module, arrows))}
+    assert circles == set()
+
+
+@pytest.mark.parametrize("package", [RRF, SIMULATOR])
 def test_import_brings_nothing_of_octoprint(package):
-    modules = [module_of(path) for path in files_of(package) if path.name != "__main__.py"]
+    modules = [name for name in TREES if is_below(name, package) and "__main__" not in name]
+    assert modules, "no module found: the test looked in the wrong place"
     script = (
         "import importlib, sys\n"
         f"sys.path.insert(0, {str(ROOT)!r})\n"
@@ -99,15 +107,54 @@ def test_import_brings_nothing_of_octoprint(package):
     assert done.stdout.split() == []
 
 
-def test_border_is_watched():
-    assert files_of(RRF), "no module found: the tests above looked in the wrong place"
+def test_pure_half_imports_the_standard_library_alone():
+    standard = getattr(sys, "stdlib_module_names", None)
+    if standard is None:
+        pytest.skip("Python 3.9 has no list of its modules")
+    for package, own in ((RRF, (RRF,)), (SIMULATOR, (SIMULATOR, RRF))):
+        crossing = [
+            f"{module}: {name}"
+            for module in TREES
+            if is_below(module, package)
+            for name in imports_of(module)
+            if name.partition(".")[0] not in standard
+            and not any(is_below(name, allowed) for allowed in own)
+        ]
+        assert crossing == []
 
 
 def test_modules_are_small():
-    long = {
-        module_of(path): lines
-        for path in files_of(PACKAGE)
-        if (lines := len(path.read_text(encoding="utf-8").splitlines())) > MAX_LINES
+    sizes = {
+        module_of(path): len(path.read_text("utf-8").splitlines()) for path in files_of(PACKAGE)
     }
-    assert long.keys() - LONG_FOR_A_REASON.keys() == set(), f"over {MAX_LINES} lines: {long}"
-    assert LONG_FOR_A_REASON.keys() - long.keys() == set(), "no longer long"
+    assert {name: size for name, size in sizes.items() if size > MOST_LINES} == {}
+
+
+def test_constructors_take_few_collaborators():
+    long = []
+    for module, tree in TREES.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef) and node.name == "__init__":
+                by_position = len(node.args.args) + len(node.args.posonlyargs) - len(["self"])
+                by_name = len(node.args.kwonlyargs)
+                if by_position > MOST_BY_POSITION or by_position + by_name > MOST_COLLABORATORS:
+                    long.append(f"{module}:{node.lineno}: {by_position} and {by_name}")
+    assert long == []
+
+
+def test_octoprints_connection_is_known_to_the_serial_link_alone():
+    found = []
+    for module, tree in TREES.items():
+        if is_below(module, SERIAL) or is_below(module, SIMULATOR) or is_below(module, RRF):
+            continue
+        found += [f"{module}: {name}" for name in imports_of(module) if name in CONNECTIONS]
+        found += [
+            f"{module}:{node.lineno}: {node.attr}"
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Attribute)
+            and node.attr.startswith("_")
+            and not node.attr.startswith("__")
+            and not (isinstance(node.value, ast.Name) and node.value.id in ("self", "cls"))
+            and node.attr not in NOT_OCTOPRINTS
+        ]
+    assert found == []

@@ -2,7 +2,7 @@
 
 from ..rrf.gcode.commands import identity_of_box
 from ..rrf.views.machine import Machine
-from ..rrf.views.warnings import UNANSWERABLE, alerts, loses_boxes
+from ..rrf.views.warnings import UNANSWERABLE, loses_boxes, warnings_of
 
 ANSWER_SECONDS = 10.0
 """Time after which an answer to a message box is no longer waited for."""
@@ -29,7 +29,7 @@ class MessageBoxes:
     @property
     def is_waiting(self):
         """Whether such a box is open, by the text or by the model."""
-        return self.is_open or UNANSWERABLE in alerts(self._model())
+        return self.is_open or UNANSWERABLE in warnings_of(self._model())
 
     ##~~ a listener
 

@@ -10,7 +10,7 @@ from octoprint.access.permissions import Permissions
 from ..host.answers import refusal
 from ..host.warning_texts import waiting_text, warning_text
 from ..rrf.views.warnings import OFF, POSITION_LOST, RESET, faults, is_resumable, is_unhomed
-from ..rrf.wire.errors import guarded_alert
+from ..rrf.wire.errors import guarded_warning
 
 JOB_ENDPOINT = "api.controlJob"
 """OctoPrint's view of ``POST /api/job``."""
@@ -20,7 +20,7 @@ class Pause(NamedTuple):
     """Why the plugin has paused OctoPrint's print, and what a person can do about it."""
 
     causes: tuple
-    """Alerts; those that hold now, or where none does any more those that were."""
+    """Warnings; those that hold now, or where none does any more those that were."""
     message: str
     """The text of a message box that the print came to, empty where it was none."""
     what_next: str
@@ -53,7 +53,7 @@ class PrintGuard:
         """Return why the print may not go on, the worst first; nothing where there is none."""
         if not self.has_print():
             return []
-        found = [alert for alert in faults(self._model()) if self._is_on(alert.code)]
+        found = [cause for cause in faults(self._model()) if self._is_on(cause.code)]
         if self._was_off and is_unhomed(self._model()):
             found.append(POSITION_LOST)
         return [RESET, *found] if self._was_reset else found
@@ -140,7 +140,7 @@ class PrintGuard:
 
     def handles(self, error):
         """Return whether a serious error of the firmware only pauses the print."""
-        code = guarded_alert(error)
+        code = guarded_warning(error)
         return code is not None and self.has_print() and self._is_on(code)
 
     def refusal(self):
@@ -176,5 +176,5 @@ class PrintGuard:
         return action == "resume" or (action == "toggle" and self._printer().is_paused())
 
 
-def _sentences(alerts):
-    return " ".join(warning_text(alert.code, alert.values) for alert in alerts)
+def _sentences(warnings):
+    return " ".join(warning_text(found.code, found.values) for found in warnings)

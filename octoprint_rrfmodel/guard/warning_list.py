@@ -2,7 +2,7 @@
 
 from ..host.warning_texts import paused_text, waiting_text
 from ..host.warnings import ALL_LEVELS, ORDER, PRINT_PAUSED, warning
-from ..rrf.views.warnings import UNANSWERABLE, alerts
+from ..rrf.views.warnings import UNANSWERABLE, warnings_of
 
 
 class WarningList:
@@ -25,13 +25,13 @@ class WarningList:
         if not self._link.is_rrf:
             was_halted = self._recovery.is_wanted and not self._link.is_operational
             return [warning("halted")] if was_halted else []
-        found = alerts(self._model(), self._guard.has_print())
+        found = warnings_of(self._model(), self._guard.has_print())
         found += [cause for cause in self._guard.causes() if cause not in found]
         if self._boxes.is_open and UNANSWERABLE not in found:
             found.append(UNANSWERABLE)
         warnings = [
             *self._paused(),
-            *map(_of_alert, found),
+            *map(_in_form, found),
             *map(warning, self._problems()),
         ]
         return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
@@ -40,7 +40,7 @@ class WarningList:
         pause = self._guard.pause()
         if pause is None:
             return []
-        causes = [_of_alert(cause) for cause in pause.causes]
+        causes = [_in_form(cause) for cause in pause.causes]
         why = waiting_text(pause.message) if pause.message else _sentences(causes)
         return [
             {
@@ -53,8 +53,8 @@ class WarningList:
         ]
 
 
-def _of_alert(alert):
-    return warning(alert.code, alert.values, alert.name)
+def _in_form(found):
+    return warning(found.code, found.values, found.name)
 
 
 def _sentences(warnings):

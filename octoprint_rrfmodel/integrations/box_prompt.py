@@ -12,7 +12,7 @@ from flask_babel import gettext
 from ..rrf.gcode.operations import Lines
 from ..rrf.views.machine import Machine, mapping
 from ..rrf.views.prompt import END, answer, prompt
-from ..rrf.views.warnings import UNANSWERABLE, alerts
+from ..rrf.views.warnings import UNANSWERABLE, warnings_of
 from ..rrf.wire.gcode_words import words
 
 PROMPT_PLUGIN = "action_command_prompt"
@@ -58,7 +58,7 @@ class BoxPrompt:
         if handle is None or comm is None or "seq" not in box:
             return
         self._announce(comm)
-        is_answerable = UNANSWERABLE not in alerts(self._model())
+        is_answerable = UNANSWERABLE not in warnings_of(self._model())
         self._shown = box
         names = {"ok": gettext("OK"), "cancel": gettext("Cancel"), "close": gettext("Close")}
         # one that the printer itself has begun would be in the way

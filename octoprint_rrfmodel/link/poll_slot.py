@@ -19,7 +19,7 @@ class TooManyQueries(Exception):
 class Poll:
     """A request, from OctoPrint's queue to its answer and its acknowledgement."""
 
-    def __init__(self, request, query, is_card, queued_at):
+    def __init__(self, request, query, *, is_card, queued_at):
         self.request = request
         self.query = query
         self.is_card = is_card

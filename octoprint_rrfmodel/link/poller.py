@@ -216,7 +216,7 @@ class Poller:
             is_card = request is not None
         self._card_polls = self._card_polls + 1 if is_card else 0
         request = request or self.follower.next_request()
-        self._poll = Poll(request, query, is_card, now)
+        self._poll = Poll(request, query, is_card=is_card, queued_at=now)
         self._link.ask(request)
 
     def _is_cards_turn(self):

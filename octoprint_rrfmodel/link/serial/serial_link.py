@@ -9,9 +9,9 @@ from ...host.tags import POLL_TAG
 from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.wire.gcode_words import words
 from ..link import Doing, Link
+from ..terminal import RecentPolls
 from .restart import Connection, restart
 from .surplus import SurplusOk
-from .terminal import RecentPolls
 
 STATUS_REQUEST = "M105"
 

@@ -1,6 +1,6 @@
 """What happened between two models, as events for those who listen.
 
-``HAPPENINGS`` is the table. A host shows its events to everybody, so that payloads hold numbers
+``EVENTS`` is the table. A host shows its events to everybody, so that payloads hold numbers
 and the firmware's own words; a word that isn't one of those is ``unknown``.
 """
 
@@ -24,7 +24,7 @@ MODEL_READY = "model_ready"
 """The event that needs no two models: whoever fetches them knows when the whole one is there."""
 
 
-class Happening(NamedTuple):
+class MachineEvent(NamedTuple):
     """One event."""
 
     name: str
@@ -45,24 +45,24 @@ class Chronicle:
     def __init__(self) -> None:
         self._facts = Facts()
 
-    def look(self, model: Mapping[str, Any]) -> list[Happening]:
+    def look(self, model: Mapping[str, Any]) -> list[MachineEvent]:
         """Return what has happened since the model before."""
         before, self._facts = self._facts, facts_of(model, self._facts)
-        return happenings(before, self._facts)
+        return events_between(before, self._facts)
 
     def heard(self, line: str) -> None:
         """Take a line from the printer, which may say how a job has ended."""
         self._facts = self._facts.heard(line)
 
 
-def happenings(before: Facts, after: Facts) -> list[Happening]:
+def events_between(before: Facts, after: Facts) -> list[MachineEvent]:
     """Return what happened in between, in the order of the table.
 
     What isn't known before is no news, but for a heater's fault and an open box: somebody has to
     see to those, also where they are older than the connection.
     """
     return [
-        Happening(row.name, payload) for row in HAPPENINGS for payload in row.find(before, after)
+        MachineEvent(row.name, payload) for row in EVENTS for payload in row.find(before, after)
     ]
 
 
@@ -146,7 +146,7 @@ def _stays_open(before: Facts, after: Facts) -> bool:
     return before.box.seq == after.box.seq
 
 
-HAPPENINGS = (
+EVENTS = (
     Row("firmware_reset", _reset),
     Row("status_changed", _changed("status")),
     Row("job_finished", _job_finished),
@@ -159,5 +159,5 @@ HAPPENINGS = (
     Row("message_box_opened", _opened),
 )
 
-NAMES = (MODEL_READY, *(row.name for row in HAPPENINGS))
+NAMES = (MODEL_READY, *(row.name for row in EVENTS))
 """The names of all events."""

@@ -43,7 +43,7 @@ LOSES_BOXES = ((3, 5, 0), (3, 6, 0))
 (Duet3D/RepRapFirmware #1141; fixed in 3.6.1)."""
 
 
-class Alert(NamedTuple):
+class MachineWarning(NamedTuple):
     """One thing that is wrong, as long as it is."""
 
     code: str
@@ -240,14 +240,14 @@ CONDITIONS = (
     ),
 )
 
-RESET = Alert("reset")
+RESET = MachineWarning("reset")
 """The board has begun anew: nothing of a print that was under way holds any more."""
 
-POSITION_LOST = Alert("position_lost")
+POSITION_LOST = MachineWarning("position_lost")
 """The supply of the motors was off during a print, and no axis is homed since (3.5 Platform.cpp,
 Spin). The host's lines would go on, each refused, until the file is through."""
 
-UNANSWERABLE = Alert("message_box_unanswerable")
+UNANSWERABLE = MachineWarning("message_box_unanswerable")
 
 GUARDS = (*(row.code for row in CONDITIONS if row.stops_a_print), RESET.code)
 """The codes of what stops a print."""
@@ -257,19 +257,19 @@ LEVELS = {row.code: row.level for row in CONDITIONS}
 _RESUMABLE = {**{row.code: row.resumable for row in CONDITIONS}, POSITION_LOST.code: True}
 
 
-def alerts(model: Model, is_printing: bool = False) -> list[Alert]:
+def warnings_of(model: Model, is_printing: bool = False) -> list[MachineWarning]:
     """Return what the model shows to be wrong, the worst first."""
     return [
-        Alert(row.code, *found)
+        MachineWarning(row.code, *found)
         for row in CONDITIONS
         if is_printing or not row.only_printing
         for found in row.find(model)
     ]
 
 
-def faults(model: Model) -> list[Alert]:
+def faults(model: Model) -> list[MachineWarning]:
     """Return what a print that the host streams can't go on with."""
-    return [alert for alert in alerts(model, is_printing=True) if alert.code in GUARDS]
+    return [each for each in warnings_of(model, is_printing=True) if each.code in GUARDS]
 
 
 def is_unhomed(model: Model) -> bool:
@@ -280,6 +280,6 @@ def is_unhomed(model: Model) -> bool:
     )
 
 
-def is_resumable(alert: Alert) -> bool:
+def is_resumable(found: MachineWarning) -> bool:
     """Return whether a print may go on once this is over."""
-    return _RESUMABLE.get(alert.code, False)
+    return _RESUMABLE.get(found.code, False)

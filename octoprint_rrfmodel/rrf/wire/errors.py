@@ -37,12 +37,12 @@ GUARDED = (
     (re.compile(r"heater \d+ fault"), "heater_fault"),
     (re.compile(r"driver [\d.]+ error"), "driver_error"),
 )
-"""Serious errors of firmware before 3.4 that the model shows too, and as which alert; later
+"""Serious errors of firmware before 3.4 that the model shows too, and as which warning; later
 firmware tells them without ``Error:``."""
 
 
-def guarded_alert(text: str) -> str | None:
-    """Return the code of the alert by which the model shows what a serious error is about."""
+def guarded_warning(text: str) -> str | None:
+    """Return the code of the warning by which the model shows what a serious error is about."""
     lowered = text.lower()
     return next((code for pattern, code in GUARDED if pattern.search(lowered)), None)
 

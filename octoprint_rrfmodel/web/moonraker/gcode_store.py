@@ -7,7 +7,7 @@ import time
 from octoprint.printer import PrinterCallback
 
 from ...host.tags import STATUS_TAG
-from ...link.serial.terminal import RECEIVED, PollTrace
+from ...link.terminal import RECEIVED, PollTrace
 
 MOST_LINES = 1000
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from octoprint_rrfmodel.rrf.follow.follower import Follower
 from octoprint_rrfmodel.rrf.model.merge import patched
 from octoprint_rrfmodel.rrf.views.event_facts import Facts, facts_of
-from octoprint_rrfmodel.rrf.views.events import HAPPENINGS, NAMES, Chronicle, happenings
+from octoprint_rrfmodel.rrf.views.events import EVENTS, NAMES, Chronicle, events_between
 from octoprint_rrfmodel.rrf.views.job import progress
 from octoprint_rrfmodel.rrf.views.state_words import MONITORS, STATUSES
 from octoprint_rrfmodel.rrf.wire.line import find_reply
@@ -29,7 +29,7 @@ def told(*models):
         if isinstance(model, str):
             chronicle.heard(model)
         else:
-            found += [tuple(happening) for happening in chronicle.look(model)]
+            found += [tuple(event) for event in chronicle.look(model)]
     return found
 
 
@@ -309,7 +309,7 @@ def test_sequence(models, events):
 
 
 def test_table():
-    names = [row.name for row in HAPPENINGS]
+    names = [row.name for row in EVENTS]
     assert len(set(names)) == len(names)
     assert set(NAMES) == {
         "model_ready",
@@ -455,7 +455,9 @@ def test_same_model_again_is_no_news(sequence):
     for model in sequence:
         facts = facts_of(model, facts)
         again = facts_of(model, facts)
-        assert [event for event in happenings(facts, again) if event.name != "firmware_reset"] == []
+        assert [
+            event for event in events_between(facts, again) if event.name != "firmware_reset"
+        ] == []
 
 
 @settings(max_examples=30)

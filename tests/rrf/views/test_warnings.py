@@ -11,12 +11,12 @@ from octoprint_rrfmodel.rrf.views.warnings import (
     POSITION_LOST,
     RESET,
     WARNING,
-    Alert,
-    alerts,
+    MachineWarning,
     faults,
     is_resumable,
     is_unhomed,
     loses_boxes,
+    warnings_of,
 )
 
 
@@ -120,16 +120,16 @@ KNOWN = [
 
 @pytest.mark.parametrize("model, is_printing, names", KNOWN)
 def test_what_stops_no_print(model, is_printing, names):
-    assert [alert.name for alert in alerts(model, is_printing)] == names
-    assert [alert.code for alert in faults(model)] == [name for name in names if name == "off"]
+    assert [each.name for each in warnings_of(model, is_printing)] == names
+    assert [each.code for each in faults(model)] == [name for name in names if name == "off"]
 
 
 def test_what_is_told_with_a_warning():
-    (error,) = alerts({"state": {"startupError": ERROR}})
+    (error,) = warnings_of({"state": {"startupError": ERROR}})
     assert error.values == {**ERROR, "line": "12"}
-    (differs,) = alerts(versions("3.5.3", "3.4.6"))
+    (differs,) = warnings_of(versions("3.5.3", "3.4.6"))
     assert differs.values == {"number": "121", "version": "3.4.6", "main": "3.5.3"}
-    (driver,) = alerts(drivers(0, 2, canAddress=121))
+    (driver,) = warnings_of(drivers(0, 2, canAddress=121))
     assert driver.values == {"number": "121.1"}
 
 
@@ -141,7 +141,7 @@ def test_levels():
 
 @pytest.mark.parametrize("model, found", FOUND)
 def test_faults(model, found):
-    assert [alert.name for alert in faults(model)] == found
+    assert [each.name for each in faults(model)] == found
 
 
 @pytest.mark.parametrize(
@@ -158,22 +158,22 @@ def test_faults(model, found):
 )
 def test_message_box(version, found):
     model = usb("awaitingAcknowledgement", version)
-    assert [alert.name for alert in alerts(model)] == found
+    assert [each.name for each in warnings_of(model)] == found
     assert faults(model) == []
-    assert alerts(usb("executing", version)) == []
-    assert alerts(usb("awaitingAcknowledgement", version, name="HTTP")) == []
+    assert warnings_of(usb("executing", version)) == []
+    assert warnings_of(usb("awaitingAcknowledgement", version, name="HTTP")) == []
 
 
 def test_filament_is_nobodys_concern_while_nothing_is_printed():
     model = filament("noFilament", enableMode=1)
-    assert alerts(model) == []
-    assert Alert("filament_error", (0,)) in alerts(model, is_printing=True)
+    assert warnings_of(model) == []
+    assert MachineWarning("filament_error", (0,)) in warnings_of(model, is_printing=True)
 
 
 def test_what_may_go_on():
     assert not is_resumable(RESET)
-    assert not is_resumable(Alert("halted"))
-    assert is_resumable(Alert("heater_fault", (1,)))
+    assert not is_resumable(MachineWarning("halted"))
+    assert is_resumable(MachineWarning("heater_fault", (1,)))
     assert is_resumable(POSITION_LOST)
 
 

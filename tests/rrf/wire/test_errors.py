@@ -1,9 +1,9 @@
-"""Errors of a board that a person has to see, commands that block, and standing alerts."""
+"""Errors of a board that a person has to see, commands that block, and standing warnings."""
 
 import pytest
 
 from octoprint_rrfmodel.rrf.gcode.blocking import BLOCKING
-from octoprint_rrfmodel.rrf.views.warnings import Alert, alerts
+from octoprint_rrfmodel.rrf.views.warnings import MachineWarning, warnings_of
 from octoprint_rrfmodel.rrf.wire.errors import is_halted, is_serious
 
 SERIOUS = [
@@ -99,19 +99,19 @@ def test_command_that_is_acknowledged_at_once_does_not_block(command):
     [
         ({}, []),
         ({"state": {"status": "idle"}}, []),
-        ({"state": {"status": "halted"}}, [Alert("halted")]),
-        ({"state": {"status": "off"}}, [Alert("off")]),
+        ({"state": {"status": "halted"}}, [MachineWarning("halted")]),
+        ({"state": {"status": "off"}}, [MachineWarning("off")]),
         (
             {"heat": {"heaters": [{"state": "fault"}, None, {"state": "fault"}, {"state": "off"}]}},
-            [Alert("heater_fault", (0,)), Alert("heater_fault", (2,))],
+            [MachineWarning("heater_fault", (0,)), MachineWarning("heater_fault", (2,))],
         ),
         (
             {"state": {"status": "halted"}, "heat": {"heaters": [{"state": "fault"}]}},
-            [Alert("halted"), Alert("heater_fault", (0,))],
+            [MachineWarning("halted"), MachineWarning("heater_fault", (0,))],
         ),
         ({"state": None, "heat": []}, []),
         ({"state": {"status": {}}, "heat": {"heaters": 5}}, []),
     ],
 )
-def test_alerts_of_a_model(model, expected):
-    assert alerts(model) == expected
+def test_warnings_of_a_model(model, expected):
+    assert warnings_of(model) == expected
