@@ -112,7 +112,9 @@ def answer(
     tree = _MARKS_TREE if marks is MARKS else _tree(marks)
     asked = parse_flags(flags)
     try:
-        reply.update(_Query(asked, key, firmware, axes_shown).result(model, tree, reply))
+        reply.update(
+            _Query(asked, key, firmware=firmware, axes_shown=axes_shown).result(model, tree, reply)
+        )
     except RecursionError:
         reply["result"] = None
     return reply
@@ -121,7 +123,7 @@ def answer(
 class _Query:
     """One evaluation: what is asked for, and the walk that answers it."""
 
-    def __init__(self, flags: Flags, key: str, firmware: bool, axes_shown: int | None) -> None:
+    def __init__(self, flags: Flags, key: str, *, firmware: bool, axes_shown: int | None) -> None:
         self.lengths = key.startswith("#")
         self.key = key[1:] if self.lengths else key
         self.flags = flags
