@@ -28,7 +28,7 @@ from .integrations.plugin_subscribers import PluginSubscribers
 from .link.known import Known
 from .link.listeners import Listeners
 from .link.poller import Poller
-from .link.questions import LiveQuestions
+from .link.questions import Questions
 from .link.serial.display import Display
 from .link.serial.operation_translator import OperationTranslator
 from .link.serial.queued import QueuedCommands
@@ -136,7 +136,7 @@ class Assembly:
             look=partial(self.worker.notify, "look"),
             rate=self._rate,
         )
-        self.questions = LiveQuestions(self._poller, self.link)
+        self.questions = Questions(self._poller, self.link)
 
     def _make_web(self):
         host, model = self._host, self._known.model

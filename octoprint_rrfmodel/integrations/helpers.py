@@ -13,7 +13,7 @@ class Helpers:
     """The model, changes, questions, commands, the state and the printer objects.
 
     ``model()`` is the snapshot, ``subscribe(path, callback)`` notes who listens, ``questions`` are
-    ``link.questions.LiveQuestions``, ``command(name, **parameters)`` queues a command or raises
+    ``link.questions.Questions``, ``command(name, **parameters)`` queues a command or raises
     ``ValueError``, ``status()`` gives the plugin's state.
     """
 

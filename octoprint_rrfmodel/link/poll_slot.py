@@ -64,7 +64,7 @@ class Queries:
         return self.ask_for(ModelRequest(key, flags))
 
     def ask_for(self, request):
-        """Return a future of what ``rrf.asked`` makes of the answer."""
+        """Return a future of what ``rrf.follow.asked`` makes of the answer."""
         future = concurrent.futures.Future()
         with self._lock:
             if self._is_open and len(self._waiting) >= MOST_QUERIES:

@@ -13,7 +13,7 @@ ATTEMPTS = 3
 PAUSE_SECONDS = 0.3
 
 
-class LiveQuestions:
+class Questions:
     """Hands questions to the poller, as long as the printer can be asked."""
 
     def __init__(self, poller, link):

@@ -18,7 +18,7 @@ WAIT_SECONDS = 10.0
 class LiveModelHandler(tornado.web.RequestHandler):
     """Asks the printer for a key and returns what it answered; never holds a Flask thread.
 
-    ``questions`` are ``LiveQuestions``, ``app`` is OctoPrint's Flask application, which knows
+    ``questions`` are ``Questions``, ``app`` is OctoPrint's Flask application, which knows
     users.
     """
 

@@ -35,7 +35,7 @@ SHOWN_SECONDS = 300
 class Thumbnails:
     """Fetches pictures piece by piece through the slot of the polls; on Tornado's loop only.
 
-    ``questions`` are ``live.LiveQuestions``, ``model()`` is the snapshot.
+    ``questions`` are ``link.questions.Questions``, ``model()`` is the snapshot.
     """
 
     def __init__(self, questions, model):
@@ -48,7 +48,7 @@ class Thumbnails:
         self._turn = asyncio.Lock()
 
     async def of(self, path):
-        """Return a file's picture (``rrf.thumbnail.Picture``); raise ``RequestRefused``.
+        """Return a file's picture (``rrf.card.thumbnail.Picture``); raise ``RequestRefused``.
 
         Who asks at the same time for the same shares the answer.
         """

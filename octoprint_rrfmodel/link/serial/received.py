@@ -56,13 +56,13 @@ class ReceivedLines:
         if comm is not link.connection:
             return line
         if '{"' not in line:
-            if line[:1] == "o" and link.surplus.awaits is None:
+            if line[:1] == "o" and link.extra_ok.awaits is None:
                 if link.awaited is not None and line.startswith("ok"):
                     link.acknowledged(link.awaited in SETTLING)
                 return line
             if (
                 line[:1] in ATTENDED
-                or link.surplus.awaits is not None
+                or link.extra_ok.awaits is not None
                 or link.expects_refusal
                 or self._card.is_talking
             ):
@@ -88,7 +88,7 @@ class ReceivedLines:
             if line.startswith(VOLTAGE_WARNING):
                 # OctoPrint sees an ok only where a line starts with it, and waits half a minute
                 line = without_warning(line)
-        if link.surplus.awaits is not None and link.surplus.is_in(line):
+        if link.extra_ok.awaits is not None and link.extra_ok.is_in(line):
             return SWALLOWED
         if line.startswith("ok"):
             link.acknowledged(link.awaited in SETTLING)

@@ -2,8 +2,8 @@
 
 from ...host.tags import FILE_TAG, POLL_TAG
 from ...rrf.gcode.blocking import TARGETING
+from .extra_ok import count_ok
 from .serial_link import STATUS_REQUEST
-from .surplus import count_ok
 
 
 class SentCommands:
@@ -38,7 +38,7 @@ class SentCommands:
         link.awaited_command = cmd
         now = link.awaited_since = self._clock()
         link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
-        link.surplus.sending(cmd, gcode)
+        link.extra_ok.sending(cmd, gcode)
         if gcode in TARGETING or cmd in link.targets:
             link.target_command_at = now
         if cmd in link.targets:

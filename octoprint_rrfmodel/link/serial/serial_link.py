@@ -10,8 +10,8 @@ from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.wire.gcode_words import words
 from ..link import Doing, Link
 from ..terminal import RecentPolls
+from .extra_ok import ExtraOk
 from .restart import Connection, restart
-from .surplus import SurplusOk
 
 STATUS_REQUEST = "M105"
 
@@ -65,7 +65,7 @@ class SerialLink(Link):
         self.asks_of_a_file = False
         self.targets = {}
         """Line that is to go out to the heater and the target that it sets."""
-        self.surplus = SurplusOk()
+        self.extra_ok = ExtraOk()
         self.expects_refusal = False
 
     def is_known_now(self, comm):

@@ -12,26 +12,26 @@ BLAMED = ("M121", "G0/G1")
 """What the error of such a move names: the command behind it from 3.5 on, before that the move."""
 
 
-class SurplusOk:
+class ExtraOk:
     """Watches for that ``ok``, so that OctoPrint doesn't count it."""
 
     def __init__(self):
         self.awaits = None
-        """``error``, ``ok`` or ``surplus``: what decides next; ``None`` where nothing may come."""
+        """``error``, ``ok`` or ``extra``: what decides next; ``None`` where nothing may come."""
 
     def sending(self, cmd, gcode):
         """Note that a command goes out; only a move with M121 behind it may bring one."""
-        if self.awaits != "surplus":
+        if self.awaits != "extra":
             self.awaits = "error" if gcode == "M120" and " G1 " in cmd else None
 
     def is_in(self, line):
         """Return whether a line is the ``ok`` too many; call it with each one while it awaits."""
         awaits = self.awaits
-        if awaits == "surplus":
+        if awaits == "extra":
             self.awaits = None
             return line.strip() == "ok"
         if line.startswith("ok"):
-            self.awaits = "surplus" if awaits == "ok" else None
+            self.awaits = "extra" if awaits == "ok" else None
         elif line.startswith("Error:") and any(blamed in line for blamed in BLAMED):
             self.awaits = "ok"
         return False

@@ -2,7 +2,7 @@
 
 import pytest
 
-from octoprint_rrfmodel.link.serial.surplus import SurplusOk
+from octoprint_rrfmodel.link.serial.extra_ok import ExtraOk
 
 JOG = "M120 G21 G91 G1 X1 M121"
 NEW, OLD = "Error: M121: insufficient axes homed\n", "Error: G0/G1: insufficient axes homed\n"
@@ -23,20 +23,20 @@ FAULT = "Error: Heater 1 fault: temperature excursion\n"
     ids=["3.5", "3.3", "no error", "other error", "not bare", "typed", "no move"],
 )
 def test_only_the_ok_too_many_is_taken(cmd, lines, taken):
-    surplus = SurplusOk()
-    surplus.sending(cmd, "M120")
+    extra = ExtraOk()
+    extra.sending(cmd, "M120")
     found = []
     for number, line in enumerate(lines):
-        if surplus.awaits is not None and surplus.is_in(line):
+        if extra.awaits is not None and extra.is_in(line):
             found.append(number)
     assert found == taken
 
 
 def test_a_command_that_goes_out_in_between_changes_nothing():
-    surplus = SurplusOk()
-    surplus.sending(JOG, "M120")
-    assert not surplus.is_in(NEW)
-    assert not surplus.is_in("ok\n")
-    surplus.sending("M105", "M105")
-    assert surplus.is_in("ok\n")
-    assert surplus.awaits is None
+    extra = ExtraOk()
+    extra.sending(JOG, "M120")
+    assert not extra.is_in(NEW)
+    assert not extra.is_in("ok\n")
+    extra.sending("M105", "M105")
+    assert extra.is_in("ok\n")
+    assert extra.awaits is None
