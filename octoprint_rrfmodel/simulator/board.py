@@ -6,8 +6,8 @@ import time
 from collections.abc import Iterable, Mapping
 from typing import Any, Callable, NamedTuple
 
-from .blank import INPUT_NAMES
 from .core import Core
+from .hardware.blank import INPUT_NAMES
 
 STEP = 0.25
 """Longest step of simulated time while something is going on, in seconds."""

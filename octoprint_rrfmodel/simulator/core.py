@@ -9,23 +9,25 @@ from typing import Any, Callable
 
 from octoprint_rrfmodel.rrf.m409 import answer
 
-from . import gcodes, reports, state
-from .blank import INPUT_NAMES, gcode_input, no_job
-from .build import full_model
 from .captured import completed, identity
-from .card import SYSTEM, Card
-from .channel import Channel, Outcome, Running
-from .command import Command
+from .device import live_members as state
+from .device.card import SYSTEM, Card
+from .device.job import Job
+from .device.motion import Motion
+from .device.thermal import Thermal
 from .faults import Faults
 from .firmware import firmware_called
-from .jobs import Job
+from .gcodes import reports
+from .gcodes.messagebox import MessageBoxes
+from .hardware.blank import INPUT_NAMES, gcode_input, no_job
+from .interpreter import table as gcodes
+from .line.channel import Channel, Outcome, Running
+from .line.output import Output
 from .machines import machine_called, mainboard
-from .members import for_firmware
-from .messagebox import MessageBoxes
-from .motion import Motion
-from .om import ModelText
-from .output import Output
-from .thermal import Thermal
+from .model.build import full_model
+from .model.members import for_firmware
+from .model.om import ModelText
+from .text.command import Command
 
 START_SECONDS = 1.0
 """From a reset until the port is back."""

@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Callable, NamedTuple
 
-from . import incidents
-from .om import OUT_OF_BUFFERS
+from .device import incidents
+from .model.om import OUT_OF_BUFFERS
 
 if TYPE_CHECKING:
     from .core import Core

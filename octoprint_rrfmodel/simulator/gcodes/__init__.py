@@ -1,0 +1,1 @@
+"""The G-codes, a module for each group."""

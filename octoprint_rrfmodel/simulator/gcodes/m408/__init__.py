@@ -1,0 +1,1 @@
+"""M408: status replies of the time before the object model."""

@@ -1,0 +1,1 @@
+"""Channels and what goes out on USB."""
