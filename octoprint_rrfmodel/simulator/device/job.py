@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..hardware import blank
+from ..hardware.blank import no_job
+from ..line.channel import Channel
+from ..line.output import Output
+from ..model.tree import ObjectModel
+from .card import Card
 from .fileinfo import file_info
-
-if TYPE_CHECKING:
-    from ..core import Core
+from .motion import Motion
 
 _LAYER_COMMENT = re.compile(r";LAYER_CHANGE|;LAYER:(\d+)")
 """A slicer's layer change; the group is its number from 0 where it gives one."""
@@ -32,10 +34,25 @@ SIMULATION_SPEED = 40.0
 
 
 class Job:
-    """The file that is selected or printing, and its times."""
+    """The file that is selected or printing, and its times; ``channel`` runs its lines."""
 
-    def __init__(self, board: Core):
-        self._board = board
+    def __init__(
+        self,
+        *,
+        model: ObjectModel,
+        card: Card,
+        motion: Motion,
+        channel: Channel,
+        output: Output,
+    ):
+        self._model = model
+        self._card = card
+        self._motion = motion
+        self._channel = channel
+        self._output = output
+        self.restart()
+
+    def restart(self) -> None:
         self.state: str | None = None
         self.path: str | None = None
         self.is_simulation = False
@@ -61,8 +78,17 @@ class Job:
 
     @property
     def data(self) -> dict[str, Any]:
-        job: dict[str, Any] = self._board.data["job"]
+        job: dict[str, Any] = self._model.data["job"]
         return job
+
+    def forget(self) -> None:
+        """Drop the file as if there had been none."""
+        self.restart()
+        self._model.data["job"] = self._model.members_of(no_job(), "job")
+
+    def has_run_all(self) -> bool:
+        """Return whether the lines read so far are through, as a condition to wait for."""
+        return self._channel.is_idle
 
     def fraction_printed(self) -> float:
         size = (self.data.get("file") or {}).get("size") or 0
@@ -73,10 +99,10 @@ class Job:
         self.path, self.state = path, SELECTED
         self._lines = content.splitlines(keepends=True)
         self._next = self.position = 0
-        info = file_info(path, content, self._board.card.date(path))
-        self.data["file"] = self._board.members_of(info, "job.file")
+        info = file_info(path, content, self._card.date(path))
+        self.data["file"] = self._model.members_of(info, "job.file")
         self.data["filePosition"] = 0
-        self._board.bump("job")
+        self._model.bump("job")
 
     def seek(self, position: int) -> None:
         """Go on at that byte of the file (M26)."""
@@ -107,8 +133,8 @@ class Job:
         )
         if "firstLayerDuration" in job:
             job["firstLayerDuration"] = None
-        self._board.volume_open(True)
-        self._board.bump("job")
+        self._model.volume_open(True)
+        self._model.bump("job")
 
     def _build(self) -> dict[str, Any]:
         return {
@@ -120,14 +146,13 @@ class Job:
 
     def feed(self) -> None:
         """Give the File channel its next line, and end the job after the last one."""
-        channel = self._board.channels["File"]
-        if self.state != PRINTING or not channel.is_idle:
+        if self.state != PRINTING or not self._channel.is_idle:
             return
         if self.is_simulation:
             self._go_through()
             return
         if self._next >= len(self._lines):
-            if not self._board.motion.is_moving:
+            if not self._motion.is_moving:
                 self.finish(cancelled=False)
             return
         line = self._lines[self._next]
@@ -137,7 +162,7 @@ class Job:
         if text.startswith(";"):
             self._comment(text)
         else:
-            channel.lines.append(text)
+            self._channel.lines.append(text)
 
     def _go_through(self) -> None:
         """Let the position of a simulated print follow its time; nothing is executed."""
@@ -207,35 +232,34 @@ class Job:
 
     def finish(self, cancelled: bool) -> None:
         """End the job and tell everybody."""
-        board = self._board
         job = self.data
         hours, minutes = divmod(int(self.duration + self._pause_seconds) // 60, 60)
         name, simulated = self.path or "", self.is_simulation
         last = int(self.duration)
         warm_up = int(self._warm_up or 0)
-        board.data["job"] = board.members_of(blank.no_job(), "job")
+        self._model.data["job"] = self._model.members_of(no_job(), "job")
         job = self.data
         job["lastFileName"], job["lastDuration"] = name, last
         if "lastWarmUpDuration" in job:
             job["lastWarmUpDuration"] = warm_up
         self.state = self.path = None
         self._lines = []
-        board.channels["File"].abandon()
-        board.volume_open(False)
-        board.bump("job")
+        self._channel.abandon()
+        self._model.volume_open(False)
+        self._model.bump("job")
         if simulated and not cancelled:
-            board.message(f"File {name} will print in {hours}h {minutes}m plus heating time\n")
+            self._output.text(f"File {name} will print in {hours}h {minutes}m plus heating time\n")
             return
         if not cancelled:
-            board.usb_message("Done printing file\n")
+            self._output.text("Done printing file\n")
         verb = "Cancelled" if cancelled else "Finished"
-        board.message(f"{verb} printing file {name}, print time was {hours}h {minutes}m\n")
+        self._output.text(f"{verb} printing file {name}, print time was {hours}h {minutes}m\n")
 
     def pause_for_fault(self) -> None:
         """Pause at once, as the event system does."""
         if self.state == PRINTING:
             self.state = PAUSED
-            self._board.channels["File"].lines.clear()
+            self._channel.lines.clear()
 
     def name_object(self, number: int, name: str | None = None) -> None:
         """Make M486 object ``number`` the current one; -1 for none."""
@@ -244,10 +268,10 @@ class Job:
             self._objects.append(
                 {"cancelled": False, "name": f"Object {index}", "x": [80, 120], "y": [80, 120]}
             )
-            self._board.bump("job")
+            self._model.bump("job")
         if name is not None and number >= 0:
             self._objects[number]["name"] = name
-            self._board.bump("job")
+            self._model.bump("job")
         self.current_object = number
 
     def cancel_object(self, number: int, cancelled: bool) -> bool:
@@ -255,5 +279,5 @@ class Job:
         if not 0 <= number < len(self._objects):
             return False
         self._objects[number]["cancelled"] = cancelled
-        self._board.bump("job")
+        self._model.bump("job")
         return True

@@ -2,66 +2,60 @@
 
 from __future__ import annotations
 
-import datetime
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import Any
 
-from ..model.build import BOOT_TIME
-from . import job as jobs
+from octoprint_rrfmodel.rrf.m409 import answer
 
-if TYPE_CHECKING:
-    from ..core import Core
-
-_BOOT = datetime.datetime.fromisoformat(BOOT_TIME)
-
-_JOB_STATUS = {
-    jobs.PAUSING: "pausing",
-    jobs.RESUMING: "resuming",
-    jobs.PAUSED: "paused",
-    jobs.CANCELLING: "cancelling",
-    jobs.PRINTING: "processing",
-}
+from ..clock import Clock
+from ..line.channel import Channel
+from ..model.tree import ObjectModel
+from .job import Job
+from .motion import Motion
+from .status import Status
 
 
-def shown_status(board: Core) -> str:
-    """Return ``state.status``; the order of precedence is RRF 3.5 RepRap.cpp:2391."""
-    if board.is_halted:
-        return "halted"
-    if not board.has_power:
-        return "off"
-    status = _JOB_STATUS.get(board.job.state or "")
-    if status == "processing" and board.job.is_simulation:
-        return "simulating"
-    if status is not None and (status != "cancelling" or board.firmware.has_cancelling):
-        return status
-    if board.is_changing_tool:
-        return "changingTool"
-    if board.macros_running or board.motion.is_moving or board.boxes.is_blocking:
-        return "busy"
-    return "idle"
+class LiveMembers:
+    """Brings the model up to date before somebody looks at it."""
 
+    def __init__(
+        self,
+        *,
+        model: ObjectModel,
+        clock: Clock,
+        motion: Motion,
+        job: Job,
+        status: Status,
+        channels: Mapping[str, Channel],
+    ):
+        self._model = model
+        self._clock = clock
+        self._motion = motion
+        self._job = job
+        self._status = status
+        self._channels = channels
 
-def date_time(board: Core) -> str:
-    """Return the board's wall clock as the model shows it."""
-    moment = _BOOT + datetime.timedelta(seconds=int(board.up_time))
-    return moment.isoformat()
+    def refresh(self) -> None:
+        """Bring positions, status, clocks and inputs of the model up to date."""
+        self._motion.show(self._clock.now)
+        self._job.show()
+        state = self._model.data["state"]
+        up_time = self._clock.up_time
+        state["status"] = self._status.shown()
+        state["upTime"] = int(up_time)
+        if "msUpTime" in state:
+            state["msUpTime"] = int(up_time * 1000) % 1000
+        state["time"] = self._clock.date_time()
+        for gcode_input in self._model.data.get("inputs") or ():
+            if gcode_input is None:
+                continue
+            channel = self._channels.get(gcode_input["name"])
+            if channel is not None:
+                gcode_input["state"] = channel.state
+                if "inMacro" in gcode_input:
+                    gcode_input["inMacro"] = channel.is_in_macro
 
-
-def show(board: Core) -> None:
-    """Bring positions, status, clocks and inputs of the model up to date."""
-    board.motion.show(board.now)
-    board.job.show()
-    state = board.data["state"]
-    up_time = board.up_time
-    state["status"] = shown_status(board)
-    state["upTime"] = int(up_time)
-    if "msUpTime" in state:
-        state["msUpTime"] = int(up_time * 1000) % 1000
-    state["time"] = date_time(board)
-    for gcode_input in board.data.get("inputs") or ():
-        if gcode_input is None:
-            continue
-        channel = board.channels.get(gcode_input["name"])
-        if channel is not None:
-            gcode_input["state"] = channel.state
-            if "inMacro" in gcode_input:
-                gcode_input["inMacro"] = channel.is_in_macro
+    def member(self, path: str) -> Any:
+        """Return a member of the object model by its M409 key, for expressions."""
+        self.refresh()
+        return answer(self._model.data, path, "vno")["result"]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Container, Sequence
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from ..core import Core
+from ..clock import Clock
+from ..model.tree import ObjectModel
 
 
 class Move(NamedTuple):
@@ -28,8 +28,12 @@ class Move(NamedTuple):
 class Motion:
     """Takes moves, and lets the model's positions follow them in simulated time."""
 
-    def __init__(self, board: Core):
-        self._board = board
+    def __init__(self, model: ObjectModel, clock: Clock):
+        self._model = model
+        self._clock = clock
+        self.restart()
+
+    def restart(self) -> None:
         self._moves: deque[Move] = deque()
         self._target: list[float] = []
         self._extruded_done: list[float] = []
@@ -40,20 +44,43 @@ class Motion:
 
     @property
     def axes(self) -> list[dict[str, Any]]:
-        axes: list[dict[str, Any]] = self._board.data["move"]["axes"]
+        axes: list[dict[str, Any]] = self._model.data["move"]["axes"]
         return axes
 
     @property
     def extruders(self) -> list[dict[str, Any]]:
-        return self._board.data["move"].get("extruders") or []
+        return self._model.data["move"].get("extruders") or []
+
+    def axis_index(self, letter: str) -> int | None:
+        """Return the index of the axis of that letter; ``None`` without one."""
+        for index, axis in enumerate(self.axes):
+            if axis["letter"] == letter:
+                return index
+        return None
+
+    def named_axes(self, letters: Container[str]) -> list[int]:
+        """Return the indexes of the axes whose letters are among these."""
+        return [index for index, axis in enumerate(self.axes) if axis["letter"] in letters]
+
+    @property
+    def is_delta(self) -> bool:
+        return "elta" in str((self._model.data["move"].get("kinematics") or {}).get("name"))
 
     @property
     def is_moving(self) -> bool:
         return bool(self._moves)
 
+    def has_stopped(self) -> bool:
+        """Return whether the queue has run empty, as a condition to wait for."""
+        return not self._moves
+
     @property
     def is_full(self) -> bool:
-        return len(self._moves) >= self._board.queue_length
+        return len(self._moves) >= self._model.queue_length
+
+    def has_room(self) -> bool:
+        """Return whether the queue takes another move, as a condition to wait for."""
+        return not self.is_full
 
     @property
     def next_end(self) -> float:
@@ -81,7 +108,7 @@ class Motion:
         speed = self._limited(begin, target, distance, feed)
         if seconds is None:
             seconds = distance / speed
-        now = self._board.now
+        now = self._clock.now
         start = max(now, self._moves[-1].end if self._moves else now)
         acceleration = float(self.axes[0].get("acceleration") or 1000.0) if self.axes else 1000.0
         self._moves.append(
@@ -117,7 +144,7 @@ class Motion:
             self._extrude(move.extruded, part)
         self._show_current(move)
         self._show_user_positions()
-        self._board.data["move"]["virtualEPos"] = self.virtual_e
+        self._model.data["move"]["virtualEPos"] = self.virtual_e
 
     def _place(self, position: Sequence[float]) -> None:
         for axis, value in zip(self.axes, position):
@@ -134,7 +161,7 @@ class Motion:
         self._extruded_done = [] if part >= 1.0 else [amount * part for amount in amounts]
 
     def _show_current(self, move: Move | None) -> None:
-        current = self._board.data["move"]["currentMove"]
+        current = self._model.data["move"]["currentMove"]
         speed = move.speed if move else 0.0
         acceleration = move.acceleration if move else 0.0
         current["acceleration"] = current["deceleration"] = acceleration
@@ -149,11 +176,11 @@ class Motion:
 
     def offset(self, index: int) -> float:
         """Return what is added to a user coordinate of that axis to get the machine coordinate."""
-        move = self._board.data["move"]
+        move = self._model.data["move"]
         axis = self.axes[index]
         workplaces = axis.get("workplaceOffsets") or [0.0]
         offset = float(workplaces[min(move.get("workplaceNumber") or 0, len(workplaces) - 1)])
-        tool = self._board.current_tool()
+        tool = self._model.current_tool()
         if tool is not None and index < len(tool.get("offsets") or ()):
             offset -= tool["offsets"][index]
         return offset + float(axis.get("babystep") or 0.0)
@@ -166,6 +193,23 @@ class Motion:
 
     def stop(self) -> None:
         """Drop the whole queue where it is, as an emergency stop does."""
-        self.show(self._board.now)
+        self.show(self._clock.now)
         self._moves.clear()
         self._extruded_done = []
+
+    def lose_position(self) -> None:
+        """Stop where the axes are; nobody knows where that is."""
+        self.stop()
+        for axis in self.axes:
+            axis["homed"] = False
+        self._model.bump("move")
+
+    def save_restore_point(self, index: int) -> None:
+        """Keep position and tool in ``state.restorePoints``."""
+        state = self._model.data["state"]
+        points = state.get("restorePoints") or []
+        if 0 <= index < len(points):
+            self.show(self._clock.now)
+            points[index]["coords"] = [axis["userPosition"] for axis in self.axes]
+            points[index]["toolNumber"] = state["currentTool"]
+            self._model.bump("state")

@@ -4,33 +4,49 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..clock import Clock, Condition
 from ..hardware.parts import ROOM
-
-if TYPE_CHECKING:
-    from ..core import Core
+from ..model.tree import ObjectModel
+from ..text.command import GCodeError
+from .power import Power
 
 CLOSE_ENOUGH = 2.5
 """Distance in °C from the target at which a wait ends."""
 HEATING_STATES = ("active", "standby", "tuning")
 FAULT_PWM = 0.0
+STEP = 0.1
+"""Shortest step of simulated time in which temperatures change."""
 OFF_BELOW = -273.0
 """Targets at or below switch a heater off (RRF 3.5 Tool.cpp:788, NEARLY_ABS_ZERO)."""
+
+
+def check_range(heater: dict[str, Any], value: float) -> None:
+    """Raise the error of a temperature that this heater may not have."""
+    if not float(heater["min"]) < value < float(heater["max"]):
+        raise GCodeError("Requested temperature out of range")
 
 
 class Thermal:
     """Moves ``heat.heaters[].current`` towards what state and targets ask for."""
 
-    def __init__(self, board: Core):
-        self._board = board
-        self.cancelled_waits = 0
+    def __init__(self, model: ObjectModel, power: Power, clock: Clock):
+        self._model = model
+        self._power = power
+        self._clock = clock
+        self.restart()
+
+    def restart(self) -> None:
+        self._stepped_at = self._clock.now
+        self.cold_extrusion_allowed = False
+        self._cancelled_waits = 0
         self.standby_tools: dict[int, int] = {}
         """Number of the tool that has put a heater to standby, by the heater's."""
 
     @property
     def heaters(self) -> list[dict[str, Any] | None]:
-        return self._board.data.get("heat", {}).get("heaters") or []
+        return self._model.data.get("heat", {}).get("heaters") or []
 
     def heater(self, index: int) -> dict[str, Any] | None:
         """Return that heater; ``None`` where there is none."""
@@ -44,13 +60,20 @@ class Thermal:
             return float(heater[state])
         return 0.0
 
+    def follow(self, now: float) -> None:
+        """Let temperatures go on to now, in steps that aren't too short."""
+        seconds = now - self._stepped_at
+        if seconds >= STEP:
+            self.step(seconds)
+            self._stepped_at = now
+
     def step(self, seconds: float) -> None:
         """Let every heater, sensor and thermostatic fan go on for that long."""
         for heater in self.heaters:
             if heater is not None:
                 self._heat(heater, seconds)
         self._read_sensors()
-        for fan in self._board.data.get("fans") or ():
+        for fan in self._model.data.get("fans") or ():
             if fan is not None:
                 self._blow(fan)
 
@@ -61,7 +84,7 @@ class Thermal:
         model = heater.get("model") or {}
         heating = float(model.get("heatingRate") or 1.0)
         cooling = float(model.get("coolingRate") or 0.3) / 100
-        heater_on = heater.get("state") in HEATING_STATES and self._board.has_power
+        heater_on = heater.get("state") in HEATING_STATES and self._power.is_on
         target = self.target(heater) if heater_on else 0.0
         if current < target:
             new = min(target, current + heating * seconds)
@@ -82,7 +105,7 @@ class Thermal:
         return round(min(1.0, max(0.0, (target - ROOM) * cooling / heating)), 3)
 
     def _read_sensors(self) -> None:
-        sensors = self._board.data.get("sensors", {}).get("analog") or []
+        sensors = self._model.data.get("sensors", {}).get("analog") or []
         for heater in self.heaters:
             if heater is None:
                 continue
@@ -96,7 +119,7 @@ class Thermal:
         wanted = float(fan.get("requestedValue") or 0.0)
         if watched:
             limit = float(thermostatic.get("lowTemperature") or 45.0)
-            sensors = self._board.data["sensors"].get("analog") or []
+            sensors = self._model.data["sensors"].get("analog") or []
             readings = [
                 sensors[i]["lastReading"] for i in watched if i < len(sensors) and sensors[i]
             ]
@@ -143,13 +166,47 @@ class Thermal:
     def are_at_target(self, indexes: Iterable[int], may_cool: bool = True) -> bool:
         return all(self.is_at_target(index, may_cool) for index in indexes)
 
+    def awaited(self, indexes: Iterable[int], may_cool: bool = True) -> Condition:
+        """Return the condition that the heaters are there, or that M108 has cancelled waiting."""
+        waiting, before = list(indexes), self._cancelled_waits
+        return lambda: self.are_at_target(waiting, may_cool) or self._cancelled_waits != before
+
+    def cancel_waits(self) -> None:
+        """End all waits that have begun."""
+        self._cancelled_waits += 1
+
     def can_extrude(self, tool: dict[str, Any]) -> bool:
         """Return whether every heater of the tool is warm enough."""
-        limit = float(self._board.data["heat"].get("coldExtrudeTemperature") or 0.0)
-        if self._board.cold_extrusion_allowed:
+        limit = float(self._model.data["heat"].get("coldExtrudeTemperature") or 0.0)
+        if self.cold_extrusion_allowed:
             return True
         for index in tool.get("heaters") or ():
             heater = self.heater(index)
             if heater is None or heater["state"] == "fault" or heater["current"] < limit:
                 return False
         return True
+
+    def report(self) -> str:
+        """Return ``T:21.3 /0.0 T0:21.3 /0.0 B:60.0 /60.0`` (RRF 3.5 GCodes.cpp:4811-4861)."""
+        current = self._model.current_tool()
+        found: list[str] = []
+        if current is not None and current.get("heaters"):
+            found.append("T:" + self._pairs(current["heaters"]))
+        for tool in self._model.tools():
+            if tool.get("heaters"):
+                found.append(f"T{tool['number']}:" + self._pairs(tool["heaters"]))
+        heat = self._model.data.get("heat") or {}
+        for letter, slots in (("B", heat.get("bedHeaters")), ("C", heat.get("chamberHeaters"))):
+            for slot, index in enumerate(slots or ()):
+                if self.heater(index) is None:
+                    break  # the list ends at the first slot without a heater
+                found.append(f"{letter}{slot or ''}:" + self._pairs([index]))
+        return " ".join(found)
+
+    def _pairs(self, indexes: Iterable[int]) -> str:
+        heaters = [self.heater(index) for index in indexes]
+        return " ".join(
+            f"{heater['current']:.1f} /{self.target(heater):.1f}"
+            for heater in heaters
+            if heater is not None
+        )

@@ -2,69 +2,82 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..line.channel import Channel, Outcome, Running
+from ..device.card import Card
+from ..device.motion import Motion
+from ..interpreter.macros import Macros
+from ..interpreter.table import Row, Rows
+from ..line.channel import Channel
+from ..line.outcome import Outcome, Running
+from ..model.tree import ObjectModel
 from ..text.command import Command, GCodeError
-from .moves import standstill
-
-if TYPE_CHECKING:
-    from ..core import Core
 
 
-def _extruder_of_tool(board: Core) -> dict[str, Any]:
-    tool = board.current_tool()
-    if tool is None:
-        raise GCodeError("No tool selected")
-    drive = tool.get("filamentExtruder", -1)
-    if not 0 <= drive < len(board.motion.extruders):
-        raise GCodeError("The current tool has no filament drive")
-    extruder: dict[str, Any] = board.motion.extruders[drive]
-    return extruder
+class Filaments:
+    """Loads and unloads filament by the macros of its folder."""
 
+    def __init__(self, *, model: ObjectModel, motion: Motion, card: Card, macros: Macros):
+        self._model = model
+        self._motion = motion
+        self._card = card
+        self._macros = macros
 
-def load_filament(board: Core, channel: Channel, command: Command) -> Outcome:
-    """M701: runs load.g of that filament, for the current tool."""
-    extruder = _extruder_of_tool(board)
-    name = command.string("S")
-    if name is None:
-        loaded = extruder["filament"]
-        return f"Loaded filament in the selected tool: {loaded}" if loaded else "No filament loaded"
-    if extruder["filament"]:
-        raise GCodeError("Unload the current filament before attempting to load another one")
-    if not board.card.has_folder(f"0:/filaments/{name}"):
-        raise GCodeError("Filament configuration directory not found")
-    return _filament_macro(board, channel, extruder, name, f"0:/filaments/{name}/load.g", name)
+    def rows(self) -> Rows:
+        return {
+            "M701": Row(self._load_filament),
+            "M702": Row(self._unload_filament),
+            "M703": Row(self._configure_filament),
+        }
 
+    def _extruder_of_tool(self) -> dict[str, Any]:
+        tool = self._model.current_tool()
+        if tool is None:
+            raise GCodeError("No tool selected")
+        drive = tool.get("filamentExtruder", -1)
+        if not 0 <= drive < len(self._motion.extruders):
+            raise GCodeError("The current tool has no filament drive")
+        extruder: dict[str, Any] = self._motion.extruders[drive]
+        return extruder
 
-def unload_filament(board: Core, channel: Channel, command: Command) -> Outcome:
-    """M702."""
-    extruder = _extruder_of_tool(board)
-    name = extruder["filament"]
-    if not name:
-        return None
-    return _filament_macro(board, channel, extruder, "", f"0:/filaments/{name}/unload.g", name)
+    def _load_filament(self, channel: Channel, command: Command) -> Outcome:
+        """M701: runs load.g of that filament, for the current tool."""
+        extruder = self._extruder_of_tool()
+        name = command.string("S")
+        if name is None:
+            loaded = extruder["filament"]
+            return (
+                f"Loaded filament in the selected tool: {loaded}"
+                if loaded
+                else "No filament loaded"
+            )
+        if extruder["filament"]:
+            raise GCodeError("Unload the current filament before attempting to load another one")
+        if not self._card.has_folder(f"0:/filaments/{name}"):
+            raise GCodeError("Filament configuration directory not found")
+        return self._filament_macro(channel, extruder, name, f"0:/filaments/{name}/load.g", name)
 
+    def _unload_filament(self, channel: Channel, command: Command) -> Outcome:
+        """M702."""
+        extruder = self._extruder_of_tool()
+        name = extruder["filament"]
+        if not name:
+            return None
+        return self._filament_macro(channel, extruder, "", f"0:/filaments/{name}/unload.g", name)
 
-def configure_filament(board: Core, channel: Channel, command: Command) -> Outcome:
-    """M703."""
-    extruder = _extruder_of_tool(board)
-    name = extruder["filament"]
-    if not name:
-        return None
-    return _filament_macro(board, channel, extruder, name, f"0:/filaments/{name}/config.g", name)
+    def _configure_filament(self, channel: Channel, command: Command) -> Outcome:
+        """M703."""
+        extruder = self._extruder_of_tool()
+        name = extruder["filament"]
+        if not name:
+            return None
+        return self._filament_macro(channel, extruder, name, f"0:/filaments/{name}/config.g", name)
 
-
-def _filament_macro(
-    board: Core, channel: Channel, extruder: dict[str, Any], after: str, path: str, name: str
-) -> Running:
-    yield standstill(board)
-    lines = board.card.lines(path) or []
-    with board.running_macro(channel):
-        yield from channel.macro(lines)
-    if extruder["filament"] != after:
-        extruder["filament"] = after
-        board.bump("move")
-
-
-TABLE = {"M701": load_filament, "M702": unload_filament, "M703": configure_filament}
+    def _filament_macro(
+        self, channel: Channel, extruder: dict[str, Any], after: str, path: str, name: str
+    ) -> Running:
+        yield self._motion.has_stopped
+        yield from self._macros.file(channel, path)
+        if extruder["filament"] != after:
+            extruder["filament"] = after
+            self._model.bump("move")

@@ -26,6 +26,9 @@ INPUTS_SINCE_35 = ("File2", "Queue2")
 MARLIN_CHANNELS = ("Telnet", "USB")
 """The channels that start in Marlin compatibility (RRF 3.5 GCodes.cpp:110, 122)."""
 
+NO_TAPER = float("nan")
+"""``fadeHeight`` without taper: a number that prints as null, shown without ``n`` (Move.cpp)."""
+
 
 def gcode_input(name: str) -> dict[str, Any]:
     return {

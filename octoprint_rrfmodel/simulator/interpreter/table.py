@@ -2,94 +2,83 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Callable
+from collections.abc import Mapping
+from typing import Callable, NamedTuple, Protocol
 
-from ..gcodes import (
-    coordinates,
-    filaments,
-    files,
-    heaters,
-    homing,
-    messagebox,
-    meta,
-    moves,
-    reports,
-    tools,
-)
-from ..gcodes import prints as jobcodes
-from ..gcodes import system as settings
-from ..line.channel import Channel, Outcome
+from ..device.activity import Activity
+from ..firmware import Firmware
+from ..line.channel import Channel
+from ..line.outcome import Outcome
 from ..text.command import Command, GCodeError
-from ..text.serial_line import Reply
 
-if TYPE_CHECKING:
-    from ..core import Core
+Function = Callable[[Channel, Command], Outcome]
+Release = tuple[int, ...]
 
-Function = Callable[["Core", Channel, Command], Outcome]
 
-MODULES = (
-    settings,
-    filaments,
-    moves,
-    coordinates,
-    homing,
-    tools,
-    heaters,
-    reports,
-    files,
-    jobcodes,
-    messagebox,
-    meta,
-)
+class Row(NamedTuple):
+    """What a G-code does, and which releases know it."""
 
-TABLE: dict[str, Function] = {}
-for _module in MODULES:
-    TABLE.update(_module.TABLE)
+    function: Function
+    since: Release | None = None
+    """First release that knows it."""
+    until: Release | None = None
+    """First release that knows it no longer."""
+
+    def is_known_to(self, release: Release) -> bool:
+        if self.since is not None and release < self.since:
+            return False
+        return self.until is None or release < self.until
+
+
+Rows = Mapping[str, Row]
+"""G-code → row. ``T`` stands for all tools, ``meta`` for all meta commands."""
+
+
+class Group(Protocol):
+    """G-codes that work on the same parts of a board."""
+
+    def rows(self) -> Rows:
+        """Return the rows of the table that these G-codes are."""
+
+
+UNKNOWN = "unknown"
+"""Row of whatever has no other."""
 
 WHILE_HALTED = frozenset(("M105", "M112", "M115", "M122", "M408", "M409", "M999"))
 """RRF 3.5 GCodes2.cpp:585."""
 
-SINCE = {
-    "M568": (3, 3),
-    "M36.1": (3, 4),
-    "M73": (3, 3),
-    "M409": (3, 1),
-    "M486": (3, 1),
-    "M601": (3, 1),
-}
-"""Command → first release that knows it."""
 
-UNTIL = {"M38": (3, 5)}
-"""Command → first release that knows it no longer."""
+class GCodes:
+    """The table that G-codes are registered in, for one firmware."""
 
+    def __init__(self, firmware: Firmware, activity: Activity):
+        self._firmware = firmware
+        self._activity = activity
+        self._rows: dict[str, Row] = {}
 
-def key_of(command: Command) -> str:
-    """Return the command's key in :data:`TABLE`; fractions other than M36.1 don't count."""
-    if command.letter in ("T", "meta"):
-        return command.letter
-    return f"{command.letter}{command.number}"
+    def register(self, *groups: Group) -> None:
+        """Add rows; a G-code that was in the table before means this from now on."""
+        for group in groups:
+            self._rows.update(group.rows())
 
+    def names(self) -> list[str]:
+        """Return the G-codes that there are functions for, in whichever release."""
+        return sorted(self._rows.keys() - {UNKNOWN})
 
-def execute(board: Core, channel: Channel, command: Command) -> Outcome:
-    """Return what the command's function returns; an unknown one is tried as a macro."""
-    key = key_of(command)
-    if board.is_halted and key not in WHILE_HALTED:
-        raise GCodeError("Machine is halted")
-    function = TABLE.get(key)
-    since = SINCE.get("M36.1" if command.name == "M36.1" else key)
-    until = UNTIL.get(key)
-    release = board.firmware.release
-    if (
-        function is None
-        or (since is not None and release < since)
-        or (until is not None and release >= until)
-    ):
-        return _unknown(board, channel, command)
-    return function(board, channel, command)
+    def execute(self, channel: Channel, command: Command) -> Outcome:
+        """Return what the command's function returns."""
+        name, row = self._row_of(command)
+        if self._activity.is_halted and name not in WHILE_HALTED:
+            raise GCodeError("Machine is halted")
+        if row is None or not row.is_known_to(self._firmware.release):
+            row = self._rows[UNKNOWN]
+        return row.function(channel, command)
 
-
-def _unknown(board: Core, channel: Channel, command: Command) -> Outcome:
-    lines = board.card.lines(f"0:/sys/{command.name}.g")
-    if lines is not None:
-        return channel.macro(lines)
-    return Reply(f"Warning: {command.name}: Command is not supported")
+    def _row_of(self, command: Command) -> tuple[str, Row | None]:
+        """Return name and row; a fraction counts where it has a row of its own, as M36.1."""
+        if command.letter in ("T", "meta"):
+            return command.letter, self._rows.get(command.letter)
+        if command.fraction >= 0 and command.name in self._rows:
+            return command.name, self._rows[command.name]
+        name = f"{command.letter}{command.number}"
+        return name, self._rows.get(name)

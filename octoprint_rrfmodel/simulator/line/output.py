@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING
 
+from ..clock import Clock
 from ..text.letters import utf8
-
-if TYPE_CHECKING:
-    from ..core import Core
+from .plug import Plug
+from .switches import FaultSwitches
 
 BITS_PER_BYTE = 10
 
@@ -16,35 +15,36 @@ BITS_PER_BYTE = 10
 class Output:
     """The queue of bytes that the host hasn't fetched yet."""
 
-    def __init__(self, board: Core):
-        self._board = board
+    def __init__(self, clock: Clock, faults: FaultSwitches, plug: Plug):
+        self._clock = clock
+        self._faults = faults
+        self._plug = plug
         self._late: deque[tuple[float, bytes]] = deque()
         self._ready = bytearray()
         self._line_free_at = 0.0
 
     def reply(self, text: str) -> None:
         """Queue a reply with its framing; the faults get their hands on it."""
-        board = self._board
-        data = board.faults.on_reply(utf8(text))
-        self._append(board.now + board.faults.number("slow"), data)
+        data = self._faults.on_reply(utf8(text))
+        self._append(self._clock.now + self._faults.number("slow"), data)
 
     def text(self, text: str) -> None:
         """Queue text that nobody asked for."""
-        self._append(self._board.now, utf8(text))
+        self._append(self._clock.now, utf8(text))
 
     def _append(self, due: float, data: bytes) -> None:
-        if not self._board.is_plugged_in:
+        if not self._plug.is_plugged_in:
             return
         if self._late:
             due = max(due, self._late[-1][0])
-        if due <= self._board.now:
+        if due <= self._clock.now:
             self._ready += data
         else:
             self._late.append((due, data))
 
     def take(self) -> bytes:
         """Return what the host can have by now."""
-        now, faults = self._board.now, self._board.faults
+        now, faults = self._clock.now, self._faults
         while self._late and self._late[0][0] <= now:
             self._ready += self._late.popleft()[1]
         if faults.is_on("stall"):
@@ -61,5 +61,6 @@ class Output:
         return data
 
     def discard(self) -> None:
+        """Forget what the host hasn't fetched."""
         self._late.clear()
         self._ready.clear()

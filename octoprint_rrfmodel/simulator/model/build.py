@@ -6,17 +6,12 @@ import copy
 from collections.abc import Sequence
 from typing import Any
 
+from ..clock import BOOT_TIME
 from ..firmware import Firmware
 from ..hardware import blank, parts
 from ..hardware.boards import toolboard
 from ..machines import Machine, mainboard
 from .members import for_firmware
-
-BOOT_TIME = "2024-11-05T08:00:00"
-"""Where the simulated wall clock starts."""
-
-NO_TAPER = float("nan")
-"""``fadeHeight`` without taper: a number that prints as null, shown without ``n`` (Move.cpp)."""
 
 SEQS = """
     boards directories fans global heat inputs job ledStrips move network reply scanner sensors
@@ -58,7 +53,7 @@ def _move(machine: Machine, queue_length: int, is_duet2: bool) -> dict[str, Any]
             "numFactors": 0,
         },
         "compensation": {
-            "fadeHeight": NO_TAPER,
+            "fadeHeight": blank.NO_TAPER,
             "file": None,
             "liveGrid": None,
             "meshDeviation": None,

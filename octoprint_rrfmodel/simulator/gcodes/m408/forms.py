@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Callable
+from typing import Callable
 
 from ...model.om import quoted
 from .full import full_status
-from .values import OLD_LETTERS, Status, heater_number, int_list, number, number_list
-
-if TYPE_CHECKING:
-    from ...core import Core
+from .values import OLD_LETTERS, Values, heater_number, int_list, number, number_list
 
 
-def _legacy(status: Status, kind: int) -> str:
+def _legacy(status: Values, kind: int) -> str:
     """Types 0 and 1, one flat object."""
     heaters = status.heater_order()
     letter = OLD_LETTERS.get(status.letter, status.letter)
@@ -34,11 +31,11 @@ def _legacy(status: Status, kind: int) -> str:
         f'"fanRPM":{int_list([fan.get("rpm", -1) for fan in status.fans])}',
         f'"homed":{int_list(status.homed())}',
     ]
-    if status.board.job.is_printing:
+    if status.job.is_printing:
         parts.append(f'"fraction_printed":{number(status.fraction(), 4)}')
     parts.append(_message_box_flat(status))
     if kind == 0:
-        if status.board.job.is_printing:
+        if status.job.is_printing:
             left = status.model["job"].get("timesLeft") or {}
             parts.append(
                 f'"timesLeft":{number_list([left.get("file"), left.get("filament"), 0.0], 1)}'
@@ -48,16 +45,16 @@ def _legacy(status: Status, kind: int) -> str:
         f'"geometry":{quoted(status.geometry)}',
         f'"axes":{status.visible()}',
         f'"totalAxes":{len(status.axes)}',
-        f'"axisNames":{quoted(status.names())}',
+        f'"axisNames":{quoted(status.axis_names())}',
         f'"volumes":{len(status.model.get("volumes") or ())}',
         f'"numTools":{len(status.tools)}',
         f'"myName":{quoted(str((status.model.get("network") or {}).get("name") or ""))}',
-        f'"firmwareName":{quoted(status.board.mainboard.firmware_name)}',
+        f'"firmwareName":{quoted(status.mainboard.firmware_name)}',
     ]
     return "{" + ",".join(parts) + "}"
 
 
-def _message_box_flat(status: Status) -> str:
+def _message_box_flat(status: Values) -> str:
     box = status.state.get("messageBox")
     if box is None:
         return '"msgBox.mode":-1'
@@ -69,11 +66,11 @@ def _message_box_flat(status: Status) -> str:
     )
 
 
-def _configuration(status: Status) -> str:
+def _configuration(status: Values) -> str:
     """Type 5."""
     axes, extruders = status.axes, status.extruders
     drives = axes + extruders
-    firmware, mainboard = status.board.firmware, status.board.mainboard
+    firmware, mainboard = status.firmware, status.mainboard
     idle = status.model["move"]["idle"]
     feeds = [float(drive["speed"]) / 60 for drive in drives]
     jerks = [float(drive["jerk"]) / 60 for drive in drives]
@@ -93,7 +90,7 @@ def _configuration(status: Status) -> str:
     )
 
 
-FORMS: dict[int, Callable[[Status, int], str]] = {
+FORMS: dict[int, Callable[[Values, int], str]] = {
     0: _legacy,
     1: _legacy,
     2: full_status,
@@ -103,8 +100,8 @@ FORMS: dict[int, Callable[[Status, int], str]] = {
 }
 
 
-def reply(board: Core, kind: int) -> str:
+def text_of(values: Values, kind: int) -> str:
     """Return the JSON text of ``M408 S<kind>``; an unknown type is answered as 2."""
     if kind not in FORMS:
         kind = 2
-    return FORMS[kind](Status(board), kind)
+    return FORMS[kind](values, kind)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from ...model.om import quoted
-from .values import Status, heater_number, int_list, number, number_list
+from .values import Values, heater_number, int_list, number, number_list
 
 
-def _coords(status: Status) -> str:
+def _coords(status: Values) -> str:
     return (
         f'"coords":{{"axesHomed":{int_list(status.homed())},'
         f'"wpl":{(status.model["move"].get("workplaceNumber") or 0) + 1},'
@@ -17,7 +17,7 @@ def _coords(status: Status) -> str:
     )
 
 
-def _output(status: Status) -> str:
+def _output(status: Values) -> str:
     parts = []
     beep, text = status.state.get("beep"), status.state.get("displayMessage")
     if beep:
@@ -34,7 +34,7 @@ def _output(status: Status) -> str:
     return f'"output":{{{",".join(parts)}}},' if parts else ""
 
 
-def _params(status: Status, kind: int) -> str:
+def _params(status: Values, kind: int) -> str:
     power = status.state.get("atxPower")
     names = ""
     if kind == 3:
@@ -49,8 +49,8 @@ def _params(status: Status, kind: int) -> str:
     )
 
 
-def _one_heater(status: Status, name: str, index: int) -> str:
-    heater = status.board.thermal.heater(index)
+def _one_heater(status: Values, name: str, index: int) -> str:
+    heater = status.thermal.heater(index)
     if heater is None:
         return ""
     return (
@@ -60,9 +60,9 @@ def _one_heater(status: Status, name: str, index: int) -> str:
     )
 
 
-def _temps(status: Status, kind: int) -> str:
+def _temps(status: Values, kind: int) -> str:
     chambers = list(status.heat.get("chamberHeaters") or ()) + [-1, -1]
-    heaters = [heater for heater in status.board.thermal.heaters if heater is not None]
+    heaters = [heater for heater in status.thermal.heaters if heater is not None]
     names = ""
     if kind == 3:
         names = '"names":[' + ",".join('""' for _ in heaters) + "],"
@@ -90,7 +90,7 @@ def _temps(status: Status, kind: int) -> str:
     )
 
 
-def full_status(status: Status, kind: int) -> str:
+def full_status(status: Values, kind: int) -> str:
     """Types 2 to 4."""
     current = status.model["move"]["currentMove"]
     parts = [
@@ -100,7 +100,7 @@ def full_status(status: Status, kind: int) -> str:
         f'"currentTool":{status.state["currentTool"]},{_output(status)}{_params(status, kind)},'
         f'"sensors":{{"probeValue":{status.probe()},'
         f'"fanRPM":{int_list([fan.get("rpm", -1) for fan in status.fans])}}},'
-        f'{_temps(status, kind)},"time":{number(status.board.up_time, 1)}',
+        f'{_temps(status, kind)},"time":{number(status.up_time, 1)}',
         _spindles(status),
         {2: "", 3: _settings(status) if kind == 3 else "", 4: _printing(status)}[kind],
         "}",
@@ -108,7 +108,7 @@ def full_status(status: Status, kind: int) -> str:
     return "".join(parts)
 
 
-def _spindles(status: Status) -> str:
+def _spindles(status: Values) -> str:
     if status.state.get("machineMode") != "CNC":
         return ""
     shown = ",".join(
@@ -139,13 +139,13 @@ def _volts(name: str, values: Any) -> str:
     )
 
 
-def _settings(status: Status) -> str:
+def _settings(status: Values) -> str:
     """What type 3 has on top of type 2."""
     volumes = [volume for volume in status.model.get("volumes") or () if volume]
     mounted = sum(1 << i for i, volume in enumerate(volumes) if volume.get("mounted"))
     endstops = status.model["sensors"].get("endstops") or []
     triggered = sum(1 << i for i, e in enumerate(endstops) if e and e.get("triggered"))
-    highest = max([h["max"] for h in status.board.thermal.heaters if h] or [0.0])
+    highest = max([h["max"] for h in status.thermal.heaters if h] or [0.0])
     controllable = sum(
         1 << i
         for i, fan in enumerate(status.fans)
@@ -159,10 +159,10 @@ def _settings(status: Status) -> str:
         f'"coldRetractTemp":{number(status.heat["coldRetractTemperature"], 1)},'
         f'"compensation":{quoted("None" if compensation == "none" else compensation.title())},'
         f'"controllableFans":{controllable},"tempLimit":{number(highest, 1)},'
-        f'"endstops":{triggered},"firmwareName":{quoted(status.board.mainboard.firmware_name)},'
-        f'"firmwareVersion":{quoted(status.board.firmware.version)},'
+        f'"endstops":{triggered},"firmwareName":{quoted(status.mainboard.firmware_name)},'
+        f'"firmwareVersion":{quoted(status.firmware.version)},'
         f'"geometry":{quoted(status.geometry)},"axes":{status.visible()},'
-        f'"totalAxes":{len(status.axes)},"axisNames":{quoted(status.names())},'
+        f'"totalAxes":{len(status.axes)},"axisNames":{quoted(status.axis_names())},'
         f'"volumes":{len(volumes)},"mountedVolumes":{mounted},'
         f'"mode":{quoted(status.state.get("machineMode") or "FFF")},'
         f'"name":{quoted(str((status.model.get("network") or {}).get("name") or ""))}'
@@ -179,13 +179,13 @@ def _settings(status: Status) -> str:
     )
 
 
-def _printing(status: Status) -> str:
+def _printing(status: Values) -> str:
     """What type 4 has on top of type 2."""
     job = status.model.get("job") or {}
     left = job.get("timesLeft") or {}
     old = ""
     layer_left = ""
-    if not status.board.firmware.at_least(3, 4):
+    if not status.firmware.at_least(3, 4):
         height = (job.get("file") or {}).get("firstLayerHeight")
         first = number(job.get("firstLayerDuration"), 1)
         old = f'"firstLayerDuration":{first},"firstLayerHeight":{number(height, 2)},'

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from ...core import Core
+from ...clock import Clock
+from ...device.job import Job
+from ...device.motion import Motion
+from ...device.thermal import Thermal
+from ...firmware import Firmware
+from ...hardware.boards import Mainboard
+from ...model.tree import ObjectModel
 
 LETTERS = {
     "starting": "C",
@@ -50,14 +55,35 @@ def heater_number(state: Any) -> int:
     return HEATER_STATES.index(state) if state in HEATER_STATES else 0
 
 
-class Status:
-    """The values that the status types have in common, from the object model."""
+class Names(NamedTuple):
+    """What board and firmware call themselves."""
 
-    def __init__(self, board: Core):
-        self.board = board
-        self.model = board.data
-        self.axes = board.motion.axes
-        self.extruders = board.motion.extruders
+    firmware: Firmware
+    """Version and date."""
+    mainboard: Mainboard
+    """Names of the electronics."""
+
+
+class Values:
+    """The values that the status types have in common, as they are at the moment."""
+
+    def __init__(
+        self,
+        *,
+        model: ObjectModel,
+        motion: Motion,
+        thermal: Thermal,
+        job: Job,
+        clock: Clock,
+        names: Names,
+    ):
+        self.model = model.data
+        self.thermal = thermal
+        self.job = job
+        self.up_time = clock.up_time
+        self.firmware, self.mainboard = names
+        self.axes = motion.axes
+        self.extruders = motion.extruders
         self.heat = self.model["heat"]
         self.state = self.model["state"]
         self.fans = [fan for fan in self.model.get("fans") or () if fan is not None]
@@ -74,8 +100,8 @@ class Status:
 
     def heater_order(self) -> list[dict[str, Any]]:
         """Return the heaters with the bed first, as S0 and S1 list them."""
-        bed = self.board.thermal.heater(self.bed)
-        others = [h for h in self.board.thermal.heaters if h is not None and h is not bed]
+        bed = self.thermal.heater(self.bed)
+        others = [h for h in self.thermal.heaters if h is not None and h is not bed]
         return ([bed] if bed is not None else []) + others
 
     def probe(self) -> int:
@@ -100,9 +126,9 @@ class Status:
         return [bool(axis["homed"]) for axis in self.axes]
 
     def fraction(self) -> float:
-        return self.board.job.fraction_printed()
+        return self.job.fraction_printed()
 
-    def names(self) -> str:
+    def axis_names(self) -> str:
         return "".join(axis["letter"] for axis in self.axes)
 
     def visible(self) -> int:
