@@ -32,26 +32,26 @@ from .gcodes.display import Display
 from .gcodes.factors import Factors
 from .gcodes.fans import Fans
 from .gcodes.filaments import Filaments
-from .gcodes.files import Files
 from .gcodes.heaters import Heaters
 from .gcodes.homing import Homing
-from .gcodes.identity import Identity
-from .gcodes.information import Information
-from .gcodes.listing import Listing
-from .gcodes.m408.values import Names, Values
 from .gcodes.meta import MetaCommands
 from .gcodes.modes import Modes
 from .gcodes.moves import Moves
-from .gcodes.object_model import ObjectModelCode
-from .gcodes.old_status import OldStatus
-from .gcodes.prints import Prints
-from .gcodes.reports import Reports
+from .gcodes.queries.identity import Identity
+from .gcodes.queries.m408_values import Names, Values
+from .gcodes.queries.object_model import ObjectModelCode
+from .gcodes.queries.old_status import OldStatus
+from .gcodes.queries.reports import Reports
 from .gcodes.spindles import Spindles
+from .gcodes.storage.files import Files
+from .gcodes.storage.information import Information
+from .gcodes.storage.listing import Listing
+from .gcodes.storage.prints import Prints
 from .gcodes.system import System
 from .gcodes.tools import Tools
 from .hardware.blank import INPUT_NAMES
 from .interpreter.decoder import Decoder
-from .interpreter.interpreter import Interpreter
+from .interpreter.execution import Interpreter
 from .interpreter.macros import Macros
 from .interpreter.table import GCodes
 from .line.channel import Channel
@@ -220,7 +220,7 @@ class Assembly:
             Listing(card, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
             Information(model=model, card=card, job=job, model_text=self.model_text),
-            Prints(job=job, card=card, motion=motion, clock=clock, macros=macros),
+            Prints(job=job, card=card, motion=motion, clock=clock, macros=macros, live=live),
             System(
                 model=model,
                 clock=clock,

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from octoprint_rrfmodel.simulator.gcodes.m408.values import LETTERS, OLD_LETTERS
+from octoprint_rrfmodel.simulator.gcodes.queries.m408_values import LETTERS, OLD_LETTERS
 
 BASIC = [
     "status",

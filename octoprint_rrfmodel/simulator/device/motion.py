@@ -205,11 +205,10 @@ class Motion:
         self._model.bump("move")
 
     def save_restore_point(self, index: int) -> None:
-        """Keep position and tool in ``state.restorePoints``."""
+        """Keep position and tool, as the model shows them, in ``state.restorePoints``."""
         state = self._model.data["state"]
         points = state.get("restorePoints") or []
         if 0 <= index < len(points):
-            self.show(self._clock.now)
             points[index]["coords"] = [axis["userPosition"] for axis in self.axes]
             points[index]["toolNumber"] = state["currentTool"]
             self._model.bump("state")

@@ -11,7 +11,7 @@ from ..line.outcome import Outcome, Running
 from ..line.output import Output
 from ..text.command import Command
 from ..text.serial_line import Reply
-from .interpreter import Interpreter
+from .execution import Interpreter
 from .table import UNKNOWN, Row, Rows
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ...model.om import quoted
-from .values import Values, heater_number, int_list, number, number_list
+from .m408_values import Values, heater_number, int_list, number, number_list
 
 
 def _coords(status: Values) -> str:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..device.live_members import LiveMembers
-from ..firmware import Firmware
-from ..hardware.blank import INPUT_NAMES
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome, Running
-from ..line.switches import FaultSwitches
-from ..model.om import OUT_OF_BUFFERS, ModelText, dsf_reply
-from ..model.tree import ObjectModel
-from ..text.command import Command
-from ..text.serial_line import NO_REPLY, Kind, Reply
+from ...device.live_members import LiveMembers
+from ...firmware import Firmware
+from ...hardware.blank import INPUT_NAMES
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome, Running
+from ...line.switches import FaultSwitches
+from ...model.om import OUT_OF_BUFFERS, ModelText, dsf_reply
+from ...model.tree import ObjectModel
+from ...text.command import Command
+from ...text.serial_line import NO_REPLY, Kind, Reply
 
 KEY_LENGTH = 100
 FLAGS_LENGTH = 20

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ..device.card import Card, Entry
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..line.switches import FaultSwitches
-from ..model.om import OUT_OF_BUFFERS, quoted
-from ..text.command import Command
-from ..text.serial_line import Kind, Reply
+from ...device.card import Card, Entry
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...line.switches import FaultSwitches
+from ...model.om import OUT_OF_BUFFERS, quoted
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
 
 LIST_BYTES = 2600
 """Text length at which a listing goes on with ``next``: the buffers aren't endless."""

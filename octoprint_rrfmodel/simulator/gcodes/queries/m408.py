@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Callable
 
 from ...model.om import quoted
-from .full import full_status
-from .values import OLD_LETTERS, Values, heater_number, int_list, number, number_list
+from .m408_full import full_status
+from .m408_values import OLD_LETTERS, Values, heater_number, int_list, number, number_list
 
 
 def _legacy(status: Values, kind: int) -> str:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Callable
 
-from ..device.live_members import LiveMembers
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..text.command import Command
-from ..text.serial_line import Kind, Reply
-from .m408.forms import text_of
-from .m408.values import Values
+from ...device.live_members import LiveMembers
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
+from .m408 import text_of
+from .m408_values import Values
 
 
 class OldStatus:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from ..clock import Clock
-from ..device import job as jobs
-from ..device.card import Card
-from ..device.job import Job
-from ..device.motion import Motion
-from ..interpreter.macros import Macros
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome, Running
-from ..text.command import Command, GCodeError
+from ...clock import Clock
+from ...device import job as jobs
+from ...device.card import Card
+from ...device.job import Job
+from ...device.live_members import LiveMembers
+from ...device.motion import Motion
+from ...interpreter.macros import Macros
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome, Running
+from ...text.command import Command, GCodeError
 
 PAUSE_SECONDS = 2.0
 CANCEL_SECONDS = 2.0
@@ -21,12 +22,22 @@ ONLY_IN_FILE = "use M226 and M601 only within a file being printed"
 class Prints:
     """Starts, pauses and ends prints from the card."""
 
-    def __init__(self, *, job: Job, card: Card, motion: Motion, clock: Clock, macros: Macros):
+    def __init__(
+        self,
+        *,
+        job: Job,
+        card: Card,
+        motion: Motion,
+        clock: Clock,
+        macros: Macros,
+        live: LiveMembers,
+    ):
         self._job = job
         self._card = card
         self._motion = motion
         self._clock = clock
         self._macros = macros
+        self._live = live
 
     def rows(self) -> Rows:
         return {
@@ -110,6 +121,7 @@ class Prints:
 
     def _pause(self, channel: Channel) -> Running:
         self._job.state = jobs.PAUSING
+        self._live.refresh()
         self._motion.save_restore_point(1)
         where = " ".join(
             f"{axis['letter']}{axis['userPosition']:.1f}" for axis in self._motion.axes

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ..clock import Clock
-from ..firmware import Firmware
-from ..hardware.boards import Mainboard
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..model.tree import ObjectModel
-from ..text.command import Command
-from ..text.serial_line import Kind, Reply
+from ...clock import Clock
+from ...firmware import Firmware
+from ...hardware.boards import Mainboard
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...model.tree import ObjectModel
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
 
 
 class Identity:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ..device.live_members import LiveMembers
-from ..device.motion import Motion
-from ..device.thermal import Thermal
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..model.tree import ObjectModel
-from ..text.command import Command
-from ..text.serial_line import Kind, Reply
+from ...device.live_members import LiveMembers
+from ...device.motion import Motion
+from ...device.thermal import Thermal
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...model.tree import ObjectModel
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
 
 
 class Reports:

@@ -10,16 +10,16 @@ import hashlib
 from functools import partial
 from typing import Any
 
-from ..clock import Clock
-from ..device.card import Card
-from ..device.job import Job
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..line.output import Output
-from ..model.tree import ObjectModel
-from ..text.command import Command, GCodeError
-from ..text.serial_line import Kind, Reply
+from ...clock import Clock
+from ...device.card import Card
+from ...device.job import Job
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...line.output import Output
+from ...model.tree import ObjectModel
+from ...text.command import Command, GCodeError
+from ...text.serial_line import Kind, Reply
 
 
 class Files:

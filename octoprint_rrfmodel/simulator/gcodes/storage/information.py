@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..device.card import Card
-from ..device.fileinfo import file_info
-from ..device.job import Job
-from ..interpreter.table import Row, Rows
-from ..line.channel import Channel
-from ..line.outcome import Outcome
-from ..model.om import ModelText, encoded, quoted, with_decimals
-from ..model.tree import ObjectModel
-from ..text.command import Command
-from ..text.serial_line import Kind, Reply
+from ...device.card import Card
+from ...device.fileinfo import file_info
+from ...device.job import Job
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...model.om import ModelText, encoded, quoted, with_decimals
+from ...model.tree import ObjectModel
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
 
 THUMBNAIL_BYTES = 1024
 """Letters of a thumbnail in one answer to M36.1 (3.5 RepRap.cpp)."""

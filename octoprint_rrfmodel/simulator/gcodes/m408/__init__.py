@@ -1,1 +1,0 @@
-"""M408: status replies of the time before the object model."""
