@@ -60,7 +60,7 @@ class Fault(NamedTuple):
     default: str | None = None
     """Argument where none is given."""
     on_reply: OnReply | None = None
-    """What it does to replies; what it does to the machine is an incident of :mod:`.device`."""
+    """What it does to replies; what it does to the machine is an incident (:mod:`.device`)."""
     survives_reset: bool = True
     is_event: bool = False
     """Happens once; there is nothing to switch off."""

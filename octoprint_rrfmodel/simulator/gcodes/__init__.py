@@ -1,1 +1,1 @@
-"""The G-codes, a module for each group."""
+"""The G-codes: a class for each group, which registers its rows in the board's table."""

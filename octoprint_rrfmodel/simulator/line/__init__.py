@@ -1,1 +1,1 @@
-"""Channels and what goes out on USB."""
+"""Channels, what comes in and goes out on USB, and the faults that are on."""

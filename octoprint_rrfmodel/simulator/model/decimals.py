@@ -3,7 +3,7 @@
 Paths are written as in the object model, ``[]`` standing for any element. A member that isn't
 listed is an integer, or one of the values RRF prints with as many digits as it has. The numbers
 are those of the objectModelTable arrays of RRF 3.5 (Heater.cpp, Fan.cpp, Tool.cpp, Move.cpp,
-Platform.cpp and others); M408 has its own (RepRap.cpp:1131 on), see :mod:`.m408`.
+Platform.cpp and others); M408 has its own (RepRap.cpp:1131 on), see :mod:`..gcodes.queries.m408`.
 """
 
 from __future__ import annotations
