@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterable, Mapping
-from typing import Any, Callable, NamedTuple
+from typing import Any, Callable
 
-from .blank import INPUT_NAMES
-from .core import Core
+from .assembly import Assembly
+from .hardware.blank import INPUT_NAMES
+from .line.usb_input import Received
 
 STEP = 0.25
 """Longest step of simulated time while something is going on, in seconds."""
 IDLE_STEP = 10.0
 """Longest step while nothing but temperatures can change."""
-THERMAL_STEP = 0.1
-RECEIVE_BUFFER = 512
-"""Bytes that the board takes from USB while it is busy; the host has to wait with the rest."""
 
 
-class Received(NamedTuple):
-    """A line as it came in on USB."""
-
-    time: float
-    text: str
-
-
-class Board(Core):
+class Board(Assembly):
     """A RepRapFirmware board: bytes in, bytes out, and simulated time in between.
 
     ``machine`` and ``firmware`` are names from :mod:`.machines` and :mod:`.firmware`; ``model``
@@ -44,26 +36,60 @@ class Board(Core):
         clock: Callable[[], float] = time.monotonic,
     ):
         super().__init__(machine, firmware, model)
+        self.lock = threading.RLock()
+        self._use_first_channels()
+        self.restart.register(self._use_first_channels)
         self._speed = speed
-        self._clock = clock
+        self._wall_clock = clock
         self._started_at = clock()
         self._started_now = 0.0
-        self.log: list[Received] = []
         for text in faults:
             self.inject(text)
 
-    def begin(self) -> None:
-        self._input = bytearray()
-        self._thermal_at = self.now
-        super().begin()
+    def _use_first_channels(self) -> None:
         self._used_channels = [self.channels["USB"], self.channels["File"]]
 
     @property
     def model(self) -> dict[str, Any]:
         """The current object model; hold :attr:`lock` to change it, :meth:`bump` to announce it."""
         with self.lock:
-            self.refresh()
+            self.live.refresh()
             return self.data
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The object model as it was when somebody looked at it last."""
+        return self.object_model.data
+
+    def bump(self, *keys: str) -> None:
+        """Count up ``seqs`` of these keys: something that isn't live has changed."""
+        self.object_model.bump(*keys)
+
+    def volumes_changed(self, mounted: bool) -> None:
+        """Show whether the card is mounted, and announce that files on it have changed."""
+        self.object_model.volumes_changed(mounted)
+
+    def tools(self) -> list[dict[str, Any]]:
+        """Return the tools there are, in the order of their numbers."""
+        return self.object_model.tools()
+
+    def tool(self, number: int | None) -> dict[str, Any] | None:
+        """Return the tool of that number; ``None`` without one."""
+        return self.object_model.tool(number)
+
+    @property
+    def is_halted(self) -> bool:
+        return self.activity.is_halted
+
+    @property
+    def is_plugged_in(self) -> bool:
+        """Whether the port exists at the moment."""
+        return self.plug.is_plugged_in
+
+    @property
+    def sessions(self) -> int:
+        """How often USB has enumerated anew; a port opened before is dead."""
+        return self.plug.sessions
 
     @property
     def speed(self) -> float:
@@ -74,15 +100,23 @@ class Board(Core):
     def speed(self, value: float) -> None:
         with self.lock:
             self.advance()
-            self._started_at, self._started_now = self._clock(), self.now
+            self._started_at, self._started_now = self._wall_clock(), self.clock.now
             self._speed = value
 
     @property
     def has_room(self) -> bool:
         """Whether the board takes further bytes; a busy channel leaves them in its buffer."""
-        usb = self.channels["USB"]
-        waiting = len(self._input) + sum(len(line) + 1 for line in usb.lines)
-        return waiting < RECEIVE_BUFFER
+        return self.usb_input.has_room
+
+    @property
+    def log(self) -> list[Received]:
+        """The lines received on USB, with their times."""
+        return self.usb_input.log
+
+    def received(self) -> list[str]:
+        """Return the lines received on USB."""
+        with self.lock:
+            return [entry.text for entry in self.log]
 
     def receive(self, data: bytes) -> None:
         """Take bytes from the host on USB."""
@@ -90,8 +124,7 @@ class Board(Core):
             self.advance()
             if not self.is_plugged_in:
                 return
-            self._input += data
-            self._read_lines()
+            self.usb_input.receive(data)
             self._pump()
 
     def transmit(self) -> bytes:
@@ -99,17 +132,6 @@ class Board(Core):
         with self.lock:
             self.advance()
             return self.output.take()
-
-    def advance(self) -> None:
-        """Let simulated time go on to the clock."""
-        with self.lock:
-            passed = self._clock() - self._started_at
-            target = self._started_now + passed * self._speed
-            if self.now >= target:
-                self._pump()
-            while self.now < target:
-                step = STEP if self._has_work() else IDLE_STEP
-                self._step(min(target, self.now + step, max(self.motion.next_end, self.now)))
 
     def execute(self, gcode: str, channel: str = "http") -> str:
         """Run G-code on another channel and return what it has replied so far.
@@ -127,7 +149,11 @@ class Board(Core):
                 self._used_channels.append(used)
             used.lines.extend(gcode.splitlines())
             self._pump()
-            return "".join(self.texts.pop(name, ()))
+            return self.replies.take(name)
+
+    def message(self, text: str) -> None:
+        """Send text to all outputs, USB among them."""
+        self.output.text(text)
 
     def inject(self, fault: str) -> None:
         """Switch a fault on, ``name`` or ``name:argument``."""
@@ -139,35 +165,38 @@ class Board(Core):
         with self.lock:
             self.faults.clear(fault)
 
+    def reset(self) -> None:
+        """Restart; the port stays, what was to be sent is lost."""
+        with self.lock:
+            self.restart.reset()
+
+    def power_cycle(self) -> None:
+        """Restart with USB enumerating anew: the port is gone for a second."""
+        with self.lock:
+            self.restart.power_cycle()
+
     def unplug(self, seconds: float) -> None:
+        """Let the port vanish for so many simulated seconds; opened ports are dead for good."""
         with self.lock:
-            super().unplug(seconds)
-            self._input.clear()
+            self.restart.unplug(seconds)
 
-    def received(self) -> list[str]:
-        """Return the lines received on USB."""
+    def advance(self) -> None:
+        """Let simulated time go on to the clock."""
         with self.lock:
-            return [entry.text for entry in self.log]
-
-    def _read_lines(self) -> None:
-        """Cut the input at CR and LF, both of which end a line."""
-        if b"\r" in self._input:
-            self._input = self._input.replace(b"\r", b"\n")
-        *lines, rest = self._input.split(b"\n")
-        if not lines:
-            return
-        self._input = rest
-        usb = self.channels["USB"].lines
-        for line in lines:
-            if line:
-                text = line.decode("utf-8", "surrogateescape")
-                self.log.append(Received(self.now, text))
-                usb.append(text)
+            passed = self._wall_clock() - self._started_at
+            target = self._started_now + passed * self._speed
+            now = self.clock.now
+            if now >= target:
+                self._pump()
+            while now < target:
+                step = STEP if self._has_work() else IDLE_STEP
+                self._step(min(target, now + step, max(self.motion.next_end, now)))
+                now = self.clock.now
 
     def _has_work(self) -> bool:
         """Return whether something waits for a moment in time."""
         return bool(
-            self.pending
+            self.clock.is_awaited
             or self.motion.is_moving
             or self.job.is_printing
             or self.boxes.current
@@ -176,46 +205,27 @@ class Board(Core):
         )
 
     def _step(self, until: float) -> None:
-        seconds = until - self.now
-        self.now = until
+        seconds = until - self.clock.now
+        self.clock.now = until
         self.motion.follow(until)
-        if until - self._thermal_at >= THERMAL_STEP:
-            self.thermal.step(until - self._thermal_at)
-            self._thermal_at = until
+        self.thermal.follow(until)
         self.job.step(seconds)
         self.boxes.expire()
         self._pump()
-        self._report_while_blocked()
-        self.faults.tick()
+        self.temperature_lines.tick()
 
     def _pump(self) -> None:
         """Let every channel do what it can do now."""
-        self.motion.follow(self.now)
-        if self.pending:
-            due = [entry for entry in self.pending if entry[0]()]
-            self.pending = [entry for entry in self.pending if entry not in due]
-            for _, action in due:
-                action()
+        self.motion.follow(self.clock.now)
+        self.clock.run_due()
         is_stalled = self.faults.is_on("stall")
         for channel in self._used_channels:
             if not (is_stalled and channel.name == "USB"):
-                channel.pump()
+                self.interpreter.pump(channel)
         file_channel = self.channels["File"]
         while self.job.is_running:
             position = self.job.position
             self.job.feed()
-            file_channel.pump()
+            self.interpreter.pump(file_channel)
             if self.job.position == position or not file_channel.is_idle:
                 break
-
-    def _report_while_blocked(self) -> None:
-        """Send temperatures while USB waits (RRF 3.3 GCodes.cpp:4620, 3.5 GCodes.cpp:4865)."""
-        usb = self.channels["USB"]
-        if usb.blocked_since is None or usb.input["compatibility"] != "Marlin":
-            return
-        if self.now - usb.reported_at < self.firmware.report_interval:
-            return
-        usb.reported_at = self.now
-        # after M409 or M408 the report goes to the first aux port instead
-        if not self.firmware.report_follows_request or usb.status_request == "M105":
-            self.report_temperatures()

@@ -10,12 +10,12 @@ import re
 from collections.abc import Mapping
 from typing import Any, Callable
 
-from . import blank, parts
-from .boards import Mainboard
-from .build import full_model
 from .firmware import VERSIONS, Firmware
+from .hardware import blank, parts
+from .hardware.boards import Mainboard
 from .machines import machine_called
-from .members import for_firmware
+from .model.build import full_model
+from .model.members import for_firmware
 
 RESULT = "result"
 AXIS_LETTERS = "XYZUVWABCD"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 class UnknownFirmware(ValueError):
@@ -11,7 +11,10 @@ class UnknownFirmware(ValueError):
 
 @dataclass(frozen=True)
 class Firmware:
-    """One firmware version. Every field is a difference some host can observe."""
+    """One firmware version. Every field is a difference some host can observe.
+
+    The defaults are those of the newest; an older one is written as what differs from the next.
+    """
 
     version: str
     """As ``M115`` and ``boards[0].firmwareVersion`` spell it."""
@@ -66,22 +69,22 @@ class Firmware:
 
 
 _V36 = Firmware("3.6.0", (3, 6, 0), "2025-04-24", " 11:38:13")
-_V353 = Firmware("3.5.3", (3, 5, 3), "2024-10-01", " 14:21:40")
-_V351 = Firmware(
-    "3.5.1",
-    (3, 5, 1),
-    "2024-04-19",
-    " 14:30:54",
+_V353 = replace(_V36, version="3.5.3", release=(3, 5, 3), date="2024-10-01", time=" 14:21:40")
+_V351 = replace(
+    _V353,
+    version="3.5.1",
+    release=(3, 5, 1),
+    date="2024-04-19",
+    time=" 14:30:54",
     report_interval=1.0,
     report_follows_request=False,
 )
-_V34 = Firmware(
-    "3.4.6",
-    (3, 4, 6),
-    "2023-07-21",
-    " 14:08:28",
-    report_interval=1.0,
-    report_follows_request=False,
+_V34 = replace(
+    _V351,
+    version="3.4.6",
+    release=(3, 4, 6),
+    date="2023-07-21",
+    time=" 14:08:28",
     waits_for_buffers=False,
     axes_limit=None,
     leaf_ends_key=True,
@@ -90,49 +93,29 @@ _V34 = Firmware(
     box_modes=3,
     usb_box_opens=True,
 )
-_V33 = Firmware(
-    "3.3",
-    (3, 3, 0),
-    "2021-06-15",
-    " 21:46:11",
+_V33 = replace(
+    _V34,
+    version="3.3",
+    release=(3, 3, 0),
+    date="2021-06-15",
+    time=" 21:46:11",
     m115_date_twice=True,
     line_length=201,
     has_crc=False,
-    report_interval=1.0,
-    report_follows_request=False,
-    waits_for_buffers=False,
     duet2_buffers=24,
     has_important_flag=False,
-    axes_limit=None,
-    leaf_ends_key=True,
-    error_column=False,
-    move_error_names_next=False,
     has_events=False,
     has_cancelling=False,
-    box_modes=3,
-    usb_box_opens=True,
 )
-_V205 = Firmware(
-    "2.05.1",
-    (2, 5, 1),
-    "2020-02-09b1",
+_V205 = replace(
+    _V33,
+    version="2.05.1",
+    release=(2, 5, 1),
+    date="2020-02-09b1",
+    time="",
+    m115_date_twice=False,
     has_model=False,
     has_m568=False,
-    line_length=201,
-    has_crc=False,
-    report_interval=1.0,
-    report_follows_request=False,
-    waits_for_buffers=False,
-    duet2_buffers=24,
-    has_important_flag=False,
-    axes_limit=None,
-    leaf_ends_key=True,
-    error_column=False,
-    move_error_names_next=False,
-    has_events=False,
-    has_cancelling=False,
-    box_modes=3,
-    usb_box_opens=True,
     needs_duet2=True,
 )
 

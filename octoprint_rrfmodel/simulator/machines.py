@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Callable
 
-from . import parts
-from .boards import DUET2_WIFI, MB6HC, MB6XD, MINI5PLUS, Mainboard
 from .firmware import Firmware
-from .kinematics import cartesian, core_xy, linear_delta
+from .hardware import parts
+from .hardware.boards import DUET2_WIFI, MB6HC, MB6XD, MINI5PLUS, Mainboard
+from .hardware.kinematics import cartesian, core_xy, linear_delta
 
 
 class UnknownMachine(ValueError):

@@ -9,15 +9,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from octoprint_rrfmodel.simulator.board import Board
-from octoprint_rrfmodel.simulator.command import SyntaxProblem, commands_of
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
-from octoprint_rrfmodel.simulator.gcodes import TABLE
 from octoprint_rrfmodel.simulator.machines import MACHINES
-from octoprint_rrfmodel.simulator.om import number
-from octoprint_rrfmodel.simulator.serial_line import crc16, parse_line, xor
+from octoprint_rrfmodel.simulator.model.om import number
+from octoprint_rrfmodel.simulator.text.command import SyntaxProblem, commands_of
+from octoprint_rrfmodel.simulator.text.serial_line import crc16, parse_line, xor
 
 EXAMPLES = settings(max_examples=60, deadline=None)
-CODES = sorted(code for code in TABLE if code != "meta")
+CODES = [code for code in Board().gcodes.names() if code != "meta"]
 VALUES = st.one_of(
     st.integers(-2000, 2000).map(str),
     st.floats(-1e6, 1e6).map(lambda value: f"{value:.3f}"),

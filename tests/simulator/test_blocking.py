@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import gc
+
 import pytest
+
+from octoprint_rrfmodel.simulator.interpreter.table import Row
 
 BLOCKING = {
     "G28": "G28",
@@ -254,3 +258,30 @@ def test_receive_buffer_fills_while_usb_waits(bench):
     assert not board.board.has_room
     board.wait(11)
     assert board.board.has_room
+
+
+def test_a_reset_ends_what_was_under_way(bench):
+    board = bench()
+    board.send("G28")
+    board.wait(3)
+    assert board.status == "busy"
+    board.board.reset()
+    # a command that is only forgotten would end when it is collected, in the board of afterwards
+    gc.collect()
+    assert board.status == "idle"
+    assert board.send("M110") == "ok\n"
+
+
+def test_a_group_of_gcodes_registers_itself(bench):
+    class Greetings:
+        def rows(self):
+            return {"M9001": Row(self._greet), "M9002": Row(self._greet, since=(3, 6))}
+
+        def _greet(self, channel, command):
+            return f"hello {channel.name} {command.integer('S')}"
+
+    board = bench()
+    assert board.send("M9001 S3") == "Warning: M9001: Command is not supported\nok\n"
+    board.board.gcodes.register(Greetings())
+    assert board.send("M9001 S3") == "hello USB 3\nok\n"
+    assert board.send("M9002 S3") == "Warning: M9002: Command is not supported\nok\n"

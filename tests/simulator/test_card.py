@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from octoprint_rrfmodel.simulator.card import Card
+from octoprint_rrfmodel.simulator.device.card import Card
 
 
 def listing(board, line):

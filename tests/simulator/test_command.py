@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from octoprint_rrfmodel.simulator.command import (
+from octoprint_rrfmodel.simulator.text.command import (
     SyntaxProblem,
     commands_of,
     without_comment,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from octoprint_rrfmodel.simulator.expression import (
+from octoprint_rrfmodel.simulator.text.expression import (
     BadExpression,
     arguments,
     evaluate,

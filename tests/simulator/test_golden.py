@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from octoprint_rrfmodel.simulator.decimals import tree_of
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
-from octoprint_rrfmodel.simulator.om import OUT_OF_BUFFERS, ModelText
+from octoprint_rrfmodel.simulator.model.decimals import tree_of
+from octoprint_rrfmodel.simulator.model.om import OUT_OF_BUFFERS, ModelText
 
 STEP = re.compile(r"\.?([^.\[]+)|\[(\d+)\]")
 

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from octoprint_rrfmodel.simulator.status import LETTERS, OLD_LETTERS
+from octoprint_rrfmodel.simulator.gcodes.queries.m408_values import LETTERS, OLD_LETTERS
 
 BASIC = [
     "status",

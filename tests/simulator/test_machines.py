@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from octoprint_rrfmodel.simulator.blank import INPUT_NAMES
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
+from octoprint_rrfmodel.simulator.hardware.blank import INPUT_NAMES
 from octoprint_rrfmodel.simulator.machines import MACHINES, UnknownMachine, machine_called
 
 KEYS = [

@@ -8,7 +8,7 @@ import math
 import pytest
 
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
-from octoprint_rrfmodel.simulator.om import ModelText, encoded, first_element, number, quoted
+from octoprint_rrfmodel.simulator.model.om import ModelText, encoded, first_element, number, quoted
 
 NUMBERS = {
     "zero": (0.0, 3, "0"),

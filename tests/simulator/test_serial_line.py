@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from octoprint_rrfmodel.simulator.serial_line import (
+from octoprint_rrfmodel.simulator.text.serial_line import (
     Kind,
     Line,
     Reply,

@@ -12,7 +12,7 @@ from octoprint_rrfmodel.simulator.firmware import (
     UnknownFirmware,
     firmware_called,
 )
-from octoprint_rrfmodel.simulator.members import MEMBERS, exists
+from octoprint_rrfmodel.simulator.model.members import MEMBERS, exists
 
 NAMES = list(VERSIONS)
 WITH_MODEL = [name for name in NAMES if name != "2.05"]

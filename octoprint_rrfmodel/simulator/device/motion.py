@@ -1,0 +1,214 @@
+"""The movement queue: what is queued, where the axes are at any moment, how long a move takes."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Container, Sequence
+from typing import Any, NamedTuple
+
+from ..clock import Clock
+from ..model.tree import ObjectModel
+
+
+class Move(NamedTuple):
+    """A queued move: machine coordinates of its two ends, extruder positions, and its times."""
+
+    start: float
+    end: float
+    begin: Sequence[float]
+    target: Sequence[float]
+    extruded: Sequence[float]
+    """Extrusion of each extruder in mm."""
+    speed: float
+    """mm/s"""
+    acceleration: float
+
+
+class Motion:
+    """Takes moves, and lets the model's positions follow them in simulated time."""
+
+    def __init__(self, model: ObjectModel, clock: Clock):
+        self._model = model
+        self._clock = clock
+        self.restart()
+
+    def restart(self) -> None:
+        self._moves: deque[Move] = deque()
+        self._target: list[float] = []
+        self._extruded_done: list[float] = []
+        self.last_code: int | None = None
+        """G number that a line of bare coordinates continues on a CNC machine."""
+        self.cold_reported = False
+        self.virtual_e = 0.0
+
+    @property
+    def axes(self) -> list[dict[str, Any]]:
+        axes: list[dict[str, Any]] = self._model.data["move"]["axes"]
+        return axes
+
+    @property
+    def extruders(self) -> list[dict[str, Any]]:
+        return self._model.data["move"].get("extruders") or []
+
+    def axis_index(self, letter: str) -> int | None:
+        """Return the index of the axis of that letter; ``None`` without one."""
+        for index, axis in enumerate(self.axes):
+            if axis["letter"] == letter:
+                return index
+        return None
+
+    def named_axes(self, letters: Container[str]) -> list[int]:
+        """Return the indexes of the axes whose letters are among these."""
+        return [index for index, axis in enumerate(self.axes) if axis["letter"] in letters]
+
+    @property
+    def is_delta(self) -> bool:
+        return "elta" in str((self._model.data["move"].get("kinematics") or {}).get("name"))
+
+    @property
+    def is_moving(self) -> bool:
+        return bool(self._moves)
+
+    def has_stopped(self) -> bool:
+        """Return whether the queue has run empty, as a condition to wait for."""
+        return not self._moves
+
+    @property
+    def is_full(self) -> bool:
+        return len(self._moves) >= self._model.queue_length
+
+    def has_room(self) -> bool:
+        """Return whether the queue takes another move, as a condition to wait for."""
+        return not self.is_full
+
+    @property
+    def next_end(self) -> float:
+        """When the move under way ends; infinity while nothing moves."""
+        return self._moves[0].end if self._moves else math.inf
+
+    def target(self) -> list[float]:
+        """Return the machine coordinates where the queue ends."""
+        if not self._moves or not self._target:
+            self._target = [float(axis["machinePosition"]) for axis in self.axes]
+        return list(self._target)
+
+    def queue(
+        self,
+        target: Sequence[float],
+        extruded: Sequence[float],
+        feed: float,
+        seconds: float | None = None,
+    ) -> None:
+        """Append a move to ``target``; ``feed`` in mm/s, or the time it takes."""
+        begin = self.target()
+        distance = math.dist(begin, target) or sum(abs(amount) for amount in extruded)
+        if not distance and seconds is None:
+            return
+        speed = self._limited(begin, target, distance, feed)
+        if seconds is None:
+            seconds = distance / speed
+        now = self._clock.now
+        start = max(now, self._moves[-1].end if self._moves else now)
+        acceleration = float(self.axes[0].get("acceleration") or 1000.0) if self.axes else 1000.0
+        self._moves.append(
+            Move(start, start + seconds, begin, list(target), extruded, speed, acceleration)
+        )
+        self._target = list(target)
+
+    def _limited(
+        self, begin: Sequence[float], target: Sequence[float], distance: float, feed: float
+    ) -> float:
+        """Return the feed under the maximum speeds of the axes that move."""
+        speed = max(feed, 0.1)
+        for axis, old, new in zip(self.axes, begin, target):
+            part = abs(new - old)
+            if part:
+                speed = min(speed, float(axis["speed"]) / 60 * distance / part)
+        return speed
+
+    def follow(self, now: float) -> None:
+        """Drop the moves that have ended, leaving their end positions in the model."""
+        moves = self._moves
+        while moves and moves[0].end <= now:
+            move = moves.popleft()
+            self._place(move.target)
+            self._extrude(move.extruded, 1.0)
+
+    def show(self, now: float) -> None:
+        """Put the positions and the current move into the model."""
+        move = self._moves[0] if self._moves else None
+        if move is not None:
+            part = min(1.0, max(0.0, (now - move.start) / (move.end - move.start or 1.0)))
+            self._place([a + (b - a) * part for a, b in zip(move.begin, move.target)])
+            self._extrude(move.extruded, part)
+        self._show_current(move)
+        self._show_user_positions()
+        self._model.data["move"]["virtualEPos"] = self.virtual_e
+
+    def _place(self, position: Sequence[float]) -> None:
+        for axis, value in zip(self.axes, position):
+            axis["machinePosition"] = value
+
+    def _extrude(self, amounts: Sequence[float], part: float) -> None:
+        done = self._extruded_done or [0.0] * len(amounts)
+        for index, amount in enumerate(amounts):
+            if amount and index < len(self.extruders):
+                more = amount * part - done[index]
+                extruder = self.extruders[index]
+                extruder["position"] += more * float(extruder.get("factor") or 1.0)
+                extruder["rawPosition"] += more
+        self._extruded_done = [] if part >= 1.0 else [amount * part for amount in amounts]
+
+    def _show_current(self, move: Move | None) -> None:
+        current = self._model.data["move"]["currentMove"]
+        speed = move.speed if move else 0.0
+        acceleration = move.acceleration if move else 0.0
+        current["acceleration"] = current["deceleration"] = acceleration
+        current["requestedSpeed"] = current["topSpeed"] = speed
+        if "extrusionRate" in current:
+            amount = sum(move.extruded) if move else 0.0
+            current["extrusionRate"] = amount / (move.end - move.start) if amount and move else 0.0
+
+    def _show_user_positions(self) -> None:
+        for index, axis in enumerate(self.axes):
+            axis["userPosition"] = axis["machinePosition"] - self.offset(index)
+
+    def offset(self, index: int) -> float:
+        """Return what is added to a user coordinate of that axis to get the machine coordinate."""
+        move = self._model.data["move"]
+        axis = self.axes[index]
+        workplaces = axis.get("workplaceOffsets") or [0.0]
+        offset = float(workplaces[min(move.get("workplaceNumber") or 0, len(workplaces) - 1)])
+        tool = self._model.current_tool()
+        if tool is not None and index < len(tool.get("offsets") or ()):
+            offset -= tool["offsets"][index]
+        return offset + float(axis.get("babystep") or 0.0)
+
+    def jump(self, position: dict[int, float]) -> None:
+        """Set machine coordinates without a move (G92, homing)."""
+        self._target = self.target()
+        for index, value in position.items():
+            self.axes[index]["machinePosition"] = self._target[index] = value
+
+    def stop(self) -> None:
+        """Drop the whole queue where it is, as an emergency stop does."""
+        self.show(self._clock.now)
+        self._moves.clear()
+        self._extruded_done = []
+
+    def lose_position(self) -> None:
+        """Stop where the axes are; nobody knows where that is."""
+        self.stop()
+        for axis in self.axes:
+            axis["homed"] = False
+        self._model.bump("move")
+
+    def save_restore_point(self, index: int) -> None:
+        """Keep position and tool, as the model shows them, in ``state.restorePoints``."""
+        state = self._model.data["state"]
+        points = state.get("restorePoints") or []
+        if 0 <= index < len(points):
+            points[index]["coords"] = [axis["userPosition"] for axis in self.axes]
+            points[index]["toolNumber"] = state["currentTool"]
+            self._model.bump("state")

@@ -1,0 +1,81 @@
+"""What people see and hear: M42, M117, M118, M300, M550."""
+
+from __future__ import annotations
+
+import re
+
+from ..clock import Clock
+from ..interpreter.table import Row, Rows
+from ..line.channel import Channel
+from ..line.outcome import Outcome
+from ..line.output import Output
+from ..model.tree import ObjectModel
+from ..text.command import Command, GCodeError
+
+
+class Display:
+    """Shows texts, beeps, names the machine and sets its outputs."""
+
+    def __init__(self, model: ObjectModel, clock: Clock, output: Output):
+        self._model = model
+        self._clock = clock
+        self._output = output
+
+    def rows(self) -> Rows:
+        return {
+            "M42": Row(self._output_port),
+            "M117": Row(self._display),
+            "M118": Row(self._say),
+            "M300": Row(self._beep),
+            "M550": Row(self._name_machine),
+        }
+
+    def _display(self, channel: Channel, command: Command) -> Outcome:
+        """M117: the text goes to the model, not to USB."""
+        self._model.data["state"]["displayMessage"] = command.unquoted_text()
+        self._model.bump("state")
+        return None
+
+    def _say(self, channel: Channel, command: Command) -> Outcome:
+        """M118: P1 to USB, P0 to all."""
+        text = command.string("S")
+        if text is None:
+            raise GCodeError("missing parameter 'S'")
+        if command.integer("P", 0) in (0, 1):
+            self._output.text(text + "\n")
+        return None
+
+    def _beep(self, channel: Channel, command: Command) -> Outcome:
+        """M300: in the model for as long as it sounds."""
+        duration = command.integer("P", 100) or 0
+        self._model.data["state"]["beep"] = {
+            "duration": duration,
+            "frequency": command.integer("S", 4600) or 0,
+        }
+        self._model.bump("state")
+        self._clock.after_seconds(duration / 1000, self._silence)
+        return None
+
+    def _silence(self) -> None:
+        self._model.data["state"]["beep"] = None
+        self._model.bump("state")
+
+    def _name_machine(self, channel: Channel, command: Command) -> Outcome:
+        """M550."""
+        name = command.string("P")
+        network = self._model.data.get("network") or {}
+        if name is None:
+            return f"RepRap name: {network.get('name')}"
+        network["name"] = name
+        network["hostname"] = re.sub(r"[^A-Za-z0-9]", "", name).lower() or "duet"
+        self._model.bump("network")
+        return None
+
+    def _output_port(self, channel: Channel, command: Command) -> Outcome:
+        """M42 and M280: ``state.gpOut``."""
+        ports = self._model.data["state"].get("gpOut") or []
+        number, value = command.integer("P", 0) or 0, command.number_of("S", 0.0) or 0.0
+        if not 0 <= number < len(ports) or ports[number] is None:
+            raise GCodeError(f"GPIO port {number} not found")
+        ports[number]["pwm"] = min(1.0, value / 255 if value > 1 else value)
+        return None

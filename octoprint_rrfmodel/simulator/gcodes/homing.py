@@ -1,0 +1,126 @@
+"""Homing and probing: G28, G29, G30, G32."""
+
+from __future__ import annotations
+
+from ..clock import Clock
+from ..device.motion import Motion
+from ..hardware.blank import NO_TAPER
+from ..interpreter.macros import Macros
+from ..interpreter.table import Row, Rows
+from ..line.channel import Channel
+from ..line.outcome import Outcome, Running
+from ..model.tree import ObjectModel
+from ..text.command import Command, GCodeError
+
+HOMING_SECONDS = 4.0
+"""Simulated time to home one axis."""
+PROBING_SECONDS = 6.0
+
+
+class Homing:
+    """Finds out where the axes are."""
+
+    def __init__(self, *, model: ObjectModel, motion: Motion, clock: Clock, macros: Macros):
+        self._model = model
+        self._motion = motion
+        self._clock = clock
+        self._macros = macros
+
+    def rows(self) -> Rows:
+        return {
+            "G28": Row(self._home),
+            "G29": Row(self._mesh),
+            "G30": Row(self._probe_point),
+            "G32": Row(self._true_bed),
+        }
+
+    def _home(self, channel: Channel, command: Command) -> Running:
+        """G28: homes the axes named, all without any; ok comes at the end."""
+        yield self._motion.has_stopped
+        axes = self._motion.axes
+        indexes = self._motion.named_axes(command.raw) or list(range(len(axes)))
+        with self._macros.running(channel):
+            for index in indexes:
+                axes[index]["homed"] = False
+            self._model.bump("move")
+            at_end = self._motion.is_delta
+            for index in indexes:
+                yield self._clock.after(HOMING_SECONDS)
+                axis = axes[index]
+                axis["homed"] = True
+                self._motion.jump({index: self._homed_position(index, at_end)})
+                self._model.bump("move")
+
+    def _homed_position(self, index: int, at_end: bool) -> float:
+        if at_end:
+            kinematics = self._model.data["move"]["kinematics"]
+            return float(kinematics.get("homedHeight") or 0.0) if index == 2 else 0.0
+        endstops = self._model.data["sensors"].get("endstops") or []
+        endstop = endstops[index] if index < len(endstops) else None
+        axis = self._motion.axes[index]
+        return float(axis["max"] if endstop and endstop.get("highEnd") else axis["min"])
+
+    def _mesh(self, channel: Channel, command: Command) -> Outcome:
+        """G29: S0 or none probes, S1 loads, S2 clears, S3 saves the height map."""
+        mode = command.integer("S", 0)
+        compensation = self._model.data["move"]["compensation"]
+        if mode == 2:
+            compensation.update(file=None, fadeHeight=NO_TAPER, liveGrid=None, meshDeviation=None)
+            compensation["type"] = "none"
+            self._model.bump("move")
+            return None
+        if mode == 1:
+            self._load_mesh()
+            return None
+        if mode == 3:
+            return "Height map saved to file 0:/sys/heightmap.csv"
+        return self._probe_mesh(channel)
+
+    def _load_mesh(self) -> None:
+        compensation = self._model.data["move"]["compensation"]
+        compensation.update(
+            file="0:/sys/heightmap.csv",
+            type="mesh",
+            meshDeviation={"deviation": 0.043, "mean": -0.012},
+        )
+        if "liveGrid" in compensation:
+            compensation["liveGrid"] = dict(compensation["probeGrid"])
+        self._model.bump("move")
+
+    def _probe_mesh(self, channel: Channel) -> Running:
+        if not self._model.data["sensors"].get("probes"):
+            raise GCodeError("Z probe number 0 not found")
+        if not all(axis["homed"] for axis in self._motion.axes[:3]):
+            raise GCodeError("Insufficient axes homed for bed probing")
+        yield self._motion.has_stopped
+        with self._macros.running(channel):
+            yield self._clock.after(5 * PROBING_SECONDS)
+        self._load_mesh()
+        return (
+            "100 points probed, min error -0.098, max error 0.104, mean -0.012, deviation 0.043\n"
+            "Height map saved to file 0:/sys/heightmap.csv"
+        )
+
+    def _probe_point(self, channel: Channel, command: Command) -> Running:
+        """G30: probes where the head is."""
+        if not self._model.data["sensors"].get("probes"):
+            raise GCodeError("Z probe number 0 not found")
+        yield self._motion.has_stopped
+        with self._macros.running(channel):
+            yield self._clock.after(PROBING_SECONDS)
+        probe = self._model.data["sensors"]["probes"][0]
+        if command.integer("S", 0) == -1:
+            return f"Stopped at height {probe['triggerHeight']:.3f} mm"
+        index = self._motion.axis_index("Z")
+        if index is not None:
+            self._motion.axes[index]["homed"] = True
+            self._motion.jump({index: float(probe["triggerHeight"])})
+            self._model.bump("move")
+        return None
+
+    def _true_bed(self, channel: Channel, command: Command) -> Running:
+        """G32: runs bed.g."""
+        yield self._motion.has_stopped
+        with self._macros.running(channel):
+            yield from self._macros.system(channel, "bed.g")
+            yield self._clock.after(3 * PROBING_SECONDS)

@@ -1,0 +1,1 @@
+"""G-codes that only tell: reports, the object model, M408."""

@@ -1,0 +1,83 @@
+"""Commands that only tell: temperatures, position, endstops."""
+
+from __future__ import annotations
+
+from ...device.live_members import LiveMembers
+from ...device.motion import Motion
+from ...device.thermal import Thermal
+from ...interpreter.table import Row, Rows
+from ...line.channel import Channel
+from ...line.outcome import Outcome
+from ...model.tree import ObjectModel
+from ...text.command import Command
+from ...text.serial_line import Kind, Reply
+
+
+class Reports:
+    """Tells what M105 and its kin ask for."""
+
+    def __init__(
+        self,
+        *,
+        model: ObjectModel,
+        live: LiveMembers,
+        motion: Motion,
+        thermal: Thermal,
+    ):
+        self._model = model
+        self._live = live
+        self._motion = motion
+        self._thermal = thermal
+
+    def rows(self) -> Rows:
+        return {
+            "M105": Row(self._report_temperatures),
+            "M114": Row(self._position),
+            "M119": Row(self._endstops),
+            "M998": Row(self._resend),
+        }
+
+    def _report_temperatures(self, channel: Channel, command: Command) -> Outcome:
+        """M105."""
+        channel.status_request = "M105"
+        return Reply(self._thermal.report(), Kind.TEMPERATURES)
+
+    def _position(self, channel: Channel, command: Command) -> Outcome:
+        """M114 (RRF 3.5 GCodes.cpp:3332)."""
+        self._live.refresh()
+        axes = [axis for axis in self._motion.axes if axis.get("visible", True)]
+        user = " ".join(f"{axis['letter']}:{axis['userPosition']:.3f}" for axis in axes)
+        drives = " ".join(
+            f"E{index}:{extruder['position']:.1f}"
+            for index, extruder in enumerate(self._motion.extruders)
+        )
+        counts = " ".join(str(round(axis["machinePosition"] * axis["stepsPerMm"])) for axis in axes)
+        machine = " ".join(f"{axis['machinePosition']:.3f}" for axis in axes)
+        extrusion = f"E:{self._motion.virtual_e:.3f} {drives}".rstrip()
+        return f"{user} {extrusion} Count {counts} Machine {machine} Bed comp 0.000"
+
+    def _endstops(self, channel: Channel, command: Command) -> Outcome:
+        """M119 (RRF 3.5 EndstopsManager.cpp:519)."""
+        found = self._model.data["sensors"].get("endstops") or []
+        states = []
+        for index, axis in enumerate(self._motion.axes):
+            endstop = found[index] if index < len(found) else None
+            if endstop is None:
+                text = "no endstop"
+            elif endstop.get("triggered"):
+                text = "at max stop" if endstop.get("highEnd") else "at min stop"
+            else:
+                text = "not stopped"
+            states.append(f"{axis['letter']}: {text}")
+        return f"Endstops - {', '.join(states)}, Z probe: {self._probe_state()}"
+
+    def _probe_state(self) -> str:
+        probes = self._model.data["sensors"].get("probes") or []
+        if not probes or probes[0] is None:
+            return "not stopped"
+        value = (probes[0].get("value") or [0])[0]
+        return "at min stop" if value >= probes[0].get("threshold", 500) else "not stopped"
+
+    def _resend(self, channel: Channel, command: Command) -> Outcome:
+        """M998: asks for a line again; nothing in RRF sends it by itself (3.5 GCodes2.cpp:4705)."""
+        return Reply(f"rs {command.integer('P', 0)}", Kind.TEMPERATURES)

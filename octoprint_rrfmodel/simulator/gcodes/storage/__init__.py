@@ -1,0 +1,1 @@
+"""G-codes of the card: its files, and prints from it."""

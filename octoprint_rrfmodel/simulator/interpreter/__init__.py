@@ -1,0 +1,1 @@
+"""From a line to the function of its G-code."""

@@ -1,0 +1,53 @@
+"""Bytes from the host, cut into lines for the USB channel."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ..clock import Clock
+from .channel import Channel
+
+RECEIVE_BUFFER = 512
+"""Bytes that the board takes from USB while it is busy; the host has to wait with the rest."""
+
+
+class Received(NamedTuple):
+    """A line as it came in on USB."""
+
+    time: float
+    text: str
+
+
+class UsbInput:
+    """The receive buffer in front of the USB channel, and the log of what has come in."""
+
+    def __init__(self, clock: Clock, channel: Channel):
+        self._clock = clock
+        self._channel = channel
+        self._bytes = bytearray()
+        self.log: list[Received] = []
+
+    @property
+    def has_room(self) -> bool:
+        """Whether the board takes further bytes; a busy channel leaves them in its buffer."""
+        waiting = len(self._bytes) + sum(len(line) + 1 for line in self._channel.lines)
+        return waiting < RECEIVE_BUFFER
+
+    def receive(self, data: bytes) -> None:
+        """Take bytes, and cut them at CR and LF, both of which end a line."""
+        self._bytes += data
+        if b"\r" in self._bytes:
+            self._bytes = self._bytes.replace(b"\r", b"\n")
+        *lines, rest = self._bytes.split(b"\n")
+        if not lines:
+            return
+        self._bytes = rest
+        for line in lines:
+            if line:
+                text = line.decode("utf-8", "surrogateescape")
+                self.log.append(Received(self._clock.now, text))
+                self._channel.lines.append(text)
+
+    def discard(self) -> None:
+        """Forget the beginning of a line."""
+        self._bytes.clear()

@@ -1,0 +1,1 @@
+"""The object model: put together, shown per firmware version, printed."""

@@ -1,0 +1,1 @@
+"""Text and bytes of a serial line, and what they say."""
