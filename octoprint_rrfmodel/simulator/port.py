@@ -35,6 +35,7 @@ class SimulatedSerial:
     def __init__(
         self,
         board: Board,
+        *,
         port: str = "RRF-SIM",
         baudrate: int = 115200,
         timeout: float | None = None,

@@ -23,7 +23,7 @@ class Channel:
     """
 
     def __init__(
-        self, name: str, model: ObjectModel, write: Callable[[str], None], echoes: bool = True
+        self, name: str, model: ObjectModel, write: Callable[[str], None], *, echoes: bool = True
     ):
         self.name = name
         self._model = model

@@ -68,6 +68,7 @@ class Command:
         letter: str,
         number: int | None,
         fraction: int,
+        *,
         text: str,
         column: int,
         lookup: Lookup,
@@ -225,10 +226,12 @@ def commands_of(line: str, lookup: Lookup, last_move: int | None = None) -> list
         if head is None:
             meta = _META.match(line, at)
             if meta and meta.group(1) in META_WORDS:
-                found.append(Command("meta", None, -1, line[at:].strip(), at, lookup))
+                found.append(
+                    Command("meta", None, -1, text=line[at:].strip(), column=at, lookup=lookup)
+                )
                 return found
             if last_move is not None and re.match(r"\s*[XYZUVWABC]", line[at:]):
-                found.append(Command("G", last_move, -1, line[at:], at, lookup))
+                found.append(Command("G", last_move, -1, text=line[at:], column=at, lookup=lookup))
                 return found
             raise SyntaxProblem(f"Bad command: {line[at:].strip()}")
         if head.group(4):
@@ -241,7 +244,9 @@ def commands_of(line: str, lookup: Lookup, last_move: int | None = None) -> list
             end = len(line)
         else:
             end = _end_of_command(line, start)
-        found.append(Command(letter, number, fraction, line[start:end], start, lookup))
+        found.append(
+            Command(letter, number, fraction, text=line[start:end], column=start, lookup=lookup)
+        )
         at = end
     return found
 
