@@ -1,16 +1,9 @@
-"""Operations of a host, row by row, for machines and firmware that differ."""
+"""Operations in a host's G-code, row by row, for machines and firmware that differ."""
 
 import pytest
 
-from octoprint_rrfmodel.rrf.gcode.operations import (
-    ROWS,
-    Lines,
-    Memory,
-    Refused,
-    is_on,
-    row_for,
-    translate,
-)
+from octoprint_rrfmodel.rrf.gcode.operations import Lines, Refused
+from octoprint_rrfmodel.rrf.gcode.recognition import ROWS, Memory, is_on, row_for, translate
 from octoprint_rrfmodel.rrf.views.machine import Machine
 from tests.support.places import ROOT
 
