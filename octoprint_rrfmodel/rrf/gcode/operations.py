@@ -40,7 +40,7 @@ Outcome = Union[Lines, Refused]
 def jog(
     machine: Machine, moves: Mapping[str, float], relative: bool, speed: float | None = None
 ) -> Outcome:
-    """Move axes by, or to, so many mm: one line, so that no other client's gets in between."""
+    """Return one line that moves axes by, or to, so many mm; refused where one isn't homed."""
     unhomed = machine.unhomed("".join(moves))
     if unhomed:
         return Refused("not_homed", unhomed)
@@ -48,12 +48,12 @@ def jog(
 
 
 def home(machine: Machine, axes: Iterable[str] = ()) -> Outcome:
-    """Home axes, all of them where none is named."""
+    """Return the line that homes axes, all of them where none is named."""
     return Lines((forms.home_line(axes),))
 
 
 def extrude(machine: Machine, amount: float, speed: float | None = None) -> Outcome:
-    """Extrude mm of filament with the current tool, or retract."""
+    """Return one line that extrudes mm of filament; refused without a tool or with a cold one."""
     tool = machine.current_tool
     if tool is None and machine.knows_tools:
         return Refused("no_tool_selected")
@@ -63,14 +63,17 @@ def extrude(machine: Machine, amount: float, speed: float | None = None) -> Outc
 
 
 def select(machine: Machine, tool: int) -> Outcome:
-    """Select a tool; one that does not exist would deselect all without a word."""
+    """Return the line that selects a tool; refused where it would deselect all without a word."""
     if machine.knows_tools and tool not in machine.tools:
         return Refused("no_such_tool", str(tool))
     return Lines((forms.select_line(tool),))
 
 
 def heat_tool(machine: Machine, tool: int | None, target: float) -> Outcome:
-    """Heat a tool, the one that M104 without T means where none is named; 0 switches it off."""
+    """Return the lines that heat a tool, with 0 switch it off; refused where it isn't there.
+
+    ``None`` is the one that M104 without T means.
+    """
     meant = machine.default_tool if tool is None else machine.tools.get(tool)
     if meant is None:
         if not machine.knows_tools:
@@ -102,7 +105,10 @@ def _heat_with_m104(machine: Machine, tool: Mapping[str, Any], target: float) ->
 
 
 def heat_slot(machine: Machine, kind: forms.Slots, target: float) -> Outcome:
-    """Heat the first slot of beds or chambers that has a heater; 0 switches it off."""
+    """Return the line that heats a bed or chamber, with 0 switches it off; refused without one.
+
+    It is the first slot with a heater.
+    """
     slot = machine.slot(f"{kind}Heaters")
     if slot is None:
         return Refused(f"no_{kind}")
@@ -114,12 +120,15 @@ def heat_slot(machine: Machine, kind: forms.Slots, target: float) -> Outcome:
 
 
 def speed_factor(machine: Machine, percent: float) -> Outcome:
-    """Set the factor of all speeds, which hosts also call the feed rate."""
+    """Return the line that sets the factor of all speeds, to hosts also the feed rate."""
     return Lines((forms.speed_factor_line(percent),))
 
 
 def extrusion_factor(machine: Machine, percent: float) -> Outcome:
-    """Set the factor of each extruder of the current tool, which hosts also call the flow rate."""
+    """Return a line for each extruder of the current tool; refused without one.
+
+    To hosts that factor is also the flow rate.
+    """
     tool = machine.current_tool
     if tool is None:
         return Refused("no_tool_selected")

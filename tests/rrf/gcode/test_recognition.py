@@ -7,40 +7,7 @@ from octoprint_rrfmodel.rrf.gcode.recognition import ROWS, Memory, is_on, row_fo
 from octoprint_rrfmodel.rrf.views.machine import Machine
 from tests.support.places import ROOT
 
-
-def heater(state="off", current=21.0):
-    return {"state": state, "current": current, "active": 0, "standby": 0}
-
-
-def tool(number, heaters=(1,), extruders=(0,), standby=(0,)):
-    return {
-        "number": number,
-        "heaters": list(heaters),
-        "extruders": list(extruders),
-        "standby": list(standby),
-    }
-
-
-def machine(version="3.5.3", tools=(), current=-1, is_current=True, homed=True, warm=True, **heat):
-    return Machine(
-        {
-            "boards": [{"firmwareVersion": version}],
-            "state": {"currentTool": current},
-            "tools": list(tools),
-            "heat": {
-                "bedHeaters": [-1, 0],
-                "chamberHeaters": [5],
-                "coldExtrudeTemperature": 160,
-                "heaters": [heater(current=220.0 if warm else 21.0)] * 6,
-                **heat,
-            },
-            "move": {
-                "noMovesBeforeHoming": True,
-                "axes": [{"letter": letter, "homed": homed} for letter in "XYZ"],
-            },
-        },
-        is_current,
-    )
+from .machines import machine, tool
 
 
 def go(operation, command, on, memory=None):
