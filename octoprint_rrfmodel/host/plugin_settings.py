@@ -1,7 +1,7 @@
 """The plugin's settings and what they are when nobody has changed them."""
 
 from ..rrf.card.wording import ROWS as WORDING
-from ..rrf.gcode.operations import ROWS
+from ..rrf.gcode.recognition import ROWS
 from ..rrf.gcode.unsendable import ROWS as UNSENDABLE
 from ..rrf.views.warnings import GUARDS
 

@@ -2,7 +2,8 @@
 
 import threading
 
-from ...rrf.gcode.operations import NOTHING, OPERATIONS, Memory, Refused, is_on, row_for, translate
+from ...rrf.gcode.operations import NOTHING, Refused
+from ...rrf.gcode.recognition import OPERATIONS, Memory, is_on, row_for, translate
 
 OPERATION_OF_TAG = {f"trigger:printer.{operation}": operation for operation in OPERATIONS}
 """OctoPrint's tag to the operation; 1.11 adds one for ``commands`` to each."""

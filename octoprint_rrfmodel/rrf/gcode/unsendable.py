@@ -42,10 +42,19 @@ def _always(command: str, machine: Machine) -> bool:
     return True
 
 
-def _waits_for_ever(command: str, machine: Machine) -> bool:
+def without_texts(command: str) -> str:
+    """Return a command with nothing between its quotes."""
+    return _QUOTED.sub('""', command)
+
+
+def waits_for_answer(command: str) -> bool:
+    """Return whether an M291, without the texts in it, opens a box that wants an answer."""
     mode = _MODE.search(command)
-    is_blocking = mode is not None and mode["mode"] not in _PLAIN_MODES
-    return is_blocking and loses_boxes(machine.version)
+    return mode is not None and mode["mode"] not in _PLAIN_MODES
+
+
+def _waits_for_ever(command: str, machine: Machine) -> bool:
+    return waits_for_answer(command) and loses_boxes(machine.version)
 
 
 def _is_unacknowledged(command: str, machine: Machine) -> bool:
@@ -89,7 +98,7 @@ _BY_GCODE = {gcode: row for row in ROWS for gcode in row.gcodes}
 def unsendable(command: str, gcode: str, machine: Machine) -> Row | None:
     """Return the row because of which a command is better not sent, ``None`` for others."""
     row = _BY_GCODE.get(gcode)
-    return row if row is not None and row.hits(_QUOTED.sub('""', command), machine) else None
+    return row if row is not None and row.hits(without_texts(command), machine) else None
 
 
 def text_of_box(command: str) -> str:

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from octoprint_rrfmodel.rrf.gcode.operations import ROWS
+from octoprint_rrfmodel.rrf.gcode.recognition import ROWS
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from octoprint_rrfmodel.rrf.card.wording import ROWS as WORDING
-from octoprint_rrfmodel.rrf.gcode.operations import ROWS as OPERATIONS
+from octoprint_rrfmodel.rrf.gcode.recognition import ROWS as OPERATIONS
 from octoprint_rrfmodel.rrf.gcode.unsendable import ROWS as UNSENDABLE
 from octoprint_rrfmodel.rrf.views.warnings import GUARDS
 from tests.support.basedir import ADMIN, OPERATOR

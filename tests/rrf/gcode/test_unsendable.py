@@ -2,7 +2,7 @@
 
 import pytest
 
-from octoprint_rrfmodel.rrf.gcode.operations import ROWS as OPERATIONS
+from octoprint_rrfmodel.rrf.gcode.recognition import ROWS as OPERATIONS
 from octoprint_rrfmodel.rrf.gcode.unsendable import GCODES, ROWS, text_of_box, unsendable
 from octoprint_rrfmodel.rrf.views.machine import Machine
 

@@ -6,34 +6,30 @@ from collections.abc import Sequence
 from typing import Any, Callable, Union
 
 from ...views.machine import M568_SETS_TOOLS, Machine
-from ...wire.gcode_words import number, numbers
-from ..operations import slot_off, tool_off
+from ...wire.gcode_words import number
+from .. import forms
 from . import things
 from .outcome import Request, bad, forbidden
 from .parameters import is_number, listed
 
 Temperatures = Union[float, tuple[float, ...]]
 
-STATES = ("off", "standby", "active")
-"""In the order of M568's numbers."""
-
-TEMPERATURES = (("S", "active"), ("R", "standby"))
-"""Letter of the parameter and what it sets, for tools, beds and chambers."""
+TEMPERATURES = ("active", "standby")
+"""What there is to set for tools, beds and chambers."""
 
 
 def tool_temperatures(request: Request) -> Sequence[str]:
     """M568, before 3.3 G10: for each heater of the tool, and it switches none on or off."""
     machine, values = request.machine, request.values
     tool = values["tool"]
-    words = [
-        f"{letter}{numbers(_for_each_heater(name, values[name], machine, tool))}"
-        for letter, name in TEMPERATURES
+    wanted = {
+        name: _for_each_heater(name, values[name], machine, tool)
+        for name in TEMPERATURES
         if values[name] is not None
-    ]
-    if not words:
-        raise bad("nothing_to_do", known=listed([name for _, name in TEMPERATURES]))
-    code = "M568" if machine.version >= M568_SETS_TOOLS else "G10"
-    return [f"{code} P{tool} {' '.join(words)}"]
+    }
+    if not wanted:
+        raise bad("nothing_to_do", known=listed(TEMPERATURES))
+    return [forms.tool_temperatures_line(machine, tool, **wanted)]
 
 
 def _for_each_heater(
@@ -62,13 +58,13 @@ def tool_state(request: Request) -> Sequence[str]:
     if tool.get("heaters") == []:
         raise bad("no_heater", tool=str(number_of_tool))
     if state == "off":
-        return [tool_off(tool, machine)]
+        return [forms.tool_off_line(machine, tool)]
     if machine.version < M568_SETS_TOOLS:
         raise forbidden("tool_state_firmware", version="3.3")
-    return [f"M568 P{number_of_tool} A{STATES.index(state)}"]
+    return [forms.tool_state_line(number_of_tool, state)]
 
 
-def slot_temperatures(code: str, kind: str) -> Callable[[Request], Sequence[str]]:
+def slot_temperatures(kind: forms.Slots) -> Callable[[Request], Sequence[str]]:
     """Return the function for M140 or M141: temperatures first, the state last.
 
     S also switches the heater on (3.5 GCodes2.cpp:2225), so that whatever else is asked for comes
@@ -78,28 +74,30 @@ def slot_temperatures(code: str, kind: str) -> Callable[[Request], Sequence[str]
     def lines(request: Request) -> Sequence[str]:
         machine, values = request.machine, request.values
         slot = values["index"]
-        heater = things.heater_of_slot(machine, kind, slot)
-        words = [
-            f"{letter}{number(things.temperature(name, values[name], machine, heater))}"
-            for letter, name in TEMPERATURES
+        heater = things.heater_of_slot(machine, f"{kind}Heaters", slot)
+        wanted = {
+            name: things.temperature(name, values[name], machine, heater)
+            for name in TEMPERATURES
             if values[name] is not None
-        ]
-        wanted = [f"{code} P{slot} {' '.join(words)}"] if words else []
+        }
+        found = [forms.slot_temperatures_line(kind, slot, **wanted)] if wanted else []
         state = values["state"]
         if state is not None:
-            wanted += _slot_state(code, slot, state, request, heater)
-        if not wanted:
-            raise bad("nothing_to_do", known=listed(["active", "standby", "state"]))
-        return wanted
+            found += _slot_state(kind, slot, state, request, heater)
+        if not found:
+            raise bad("nothing_to_do", known=listed([*TEMPERATURES, "state"]))
+        return found
 
     return lines
 
 
-def _slot_state(code: str, slot: int, state: str, request: Request, heater: int) -> Sequence[str]:
+def _slot_state(
+    kind: forms.Slots, slot: int, state: str, request: Request, heater: int
+) -> Sequence[str]:
     machine = request.machine
     if state == "off":
-        return [slot_off(code, slot, machine)]
-    if code == "M140":
+        return [forms.slot_off_line(machine, kind, slot)]
+    if kind == "bed":
         return [f"M144 P{slot} S1" if state == "active" else f"M144 P{slot}"]
     if request.values["active"] is not None:
         return []
@@ -107,7 +105,7 @@ def _slot_state(code: str, slot: int, state: str, request: Request, heater: int)
     target: Any = machine.heater(heater).get("active")
     if not is_number(target):
         raise forbidden("no_target")
-    return [f"{code} P{slot} S{number(target)}"]
+    return [forms.slot_temperatures_line(kind, slot, target)]
 
 
 def reset_heater_fault(request: Request) -> Sequence[str]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...views.machine import Machine, array, mapping
-from ...wire.gcode_words import axis_word, extrude_line, jog_line, number
+from ...wire.gcode_words import axis_word, extrude_line, number
+from .. import forms, operations
 from . import things
 from .outcome import Request, bad, forbidden
 from .parameters import HUGE, is_number, number_or, within
@@ -21,12 +22,12 @@ and baby steps and compensation shift them. The firmware has the last word."""
 
 def select_tool(request: Request) -> Sequence[str]:
     """T; -1 is no tool."""
-    return [f"T{request.values['tool']}"]
+    return [forms.select_line(request.values["tool"])]
 
 
 def home(request: Request) -> Sequence[str]:
     """G28; without letters it homes every axis."""
-    return [" ".join(["G28", *map(axis_word, request.values["axes"])])]
+    return [forms.home_line(request.values["axes"])]
 
 
 def jog(request: Request) -> Sequence[str]:
@@ -36,11 +37,10 @@ def jog(request: Request) -> Sequence[str]:
     if values["absolute"]:
         for letter, place in moves.items():
             _check_place(machine, letter, place)
-    unhomed = machine.unhomed("".join(moves))
-    if unhomed:
-        raise forbidden("not_homed", axes=", ".join(unhomed))
-    words = [axis_word(letter, number(place)) for letter, place in moves.items()]
-    return [jog_line(words, not values["absolute"], values["speed"])]
+    outcome = operations.jog(machine, moves, not values["absolute"], values["speed"])
+    if isinstance(outcome, operations.Refused):
+        raise forbidden(outcome.code, axes=", ".join(outcome.detail))
+    return outcome.lines
 
 
 def _check_place(machine: Machine, letter: str, place: float) -> None:
@@ -104,8 +104,7 @@ def spindle(request: Request) -> Sequence[str]:
 def tool_offsets(request: Request) -> Sequence[str]:
     """G10; the other axes keep theirs."""
     values = request.values
-    words = [axis_word(letter, number(place)) for letter, place in values["offsets"].items()]
-    return [f"G10 P{values['tool']} {' '.join(words)}"]
+    return [f"G10 P{values['tool']} {' '.join(forms.axis_words(values['offsets']))}"]
 
 
 def babystep(request: Request) -> Sequence[str]:
@@ -120,9 +119,9 @@ def babystep(request: Request) -> Sequence[str]:
 
 def speed_factor(request: Request) -> Sequence[str]:
     """M220."""
-    return [f"M220 S{number(request.values['percent'])}"]
+    return [forms.speed_factor_line(request.values["percent"])]
 
 
 def extrusion_factor(request: Request) -> Sequence[str]:
     """M221; without D it would be the current tool's extruders."""
-    return [f"M221 D{request.values['extruder']} S{number(request.values['percent'])}"]
+    return [forms.extrusion_factor_line(request.values["extruder"], request.values["percent"])]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Callable, NamedTuple
 
 from ...wire.request import KEY_LENGTH
+from ..forms import SLOT_CODES, TOOL_STATES, Slots
 from . import box, heat, job, motion, parameters, system, things
 from .outcome import Request
 from .parameters import Parameter
@@ -47,7 +48,7 @@ def _optional(name: str, read: parameters.Read, default: Any = None) -> Paramete
     return Parameter(name, read, False, default)
 
 
-def _slot(name: str, code: str, thing: parameters.Read, states: tuple[str, ...]) -> Command:
+def _slot(name: Slots, thing: parameters.Read, states: tuple[str, ...]) -> Command:
     return Command(
         name,
         (
@@ -57,8 +58,8 @@ def _slot(name: str, code: str, thing: parameters.Read, states: tuple[str, ...])
             _optional("state", parameters.word(*states)),
         ),
         (),
-        heat.slot_temperatures(code, f"{name}Heaters"),
-        f"3.5 GCodes2.cpp:2225 ({code})",
+        heat.slot_temperatures(name),
+        f"3.5 GCodes2.cpp:2225 ({SLOT_CODES[name]})",
     )
 
 
@@ -84,7 +85,7 @@ COMMANDS = (
     ),
     Command(
         "tool_state",
-        (Parameter("tool", things.tool), Parameter("state", parameters.word(*heat.STATES))),
+        (Parameter("tool", things.tool), Parameter("state", parameters.word(*TOOL_STATES))),
         (),
         heat.tool_state,
         "3.5 GCodes2.cpp:3776 (M568 A)",
@@ -96,8 +97,8 @@ COMMANDS = (
         motion.select_tool,
         "3.5 GCodes2.cpp, HandleTcode; a number that doesn't exist would deselect without a word",
     ),
-    _slot("bed", "M140", things.bed, heat.STATES),
-    _slot("chamber", "M141", things.chamber, ("off", "active")),
+    _slot("bed", things.bed, TOOL_STATES),
+    _slot("chamber", things.chamber, ("off", "active")),
     Command(
         "reset_heater_fault",
         (Parameter("heater", things.heater),),
