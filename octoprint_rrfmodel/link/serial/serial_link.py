@@ -7,6 +7,7 @@ import threading
 
 from ...host.tags import POLL_TAG
 from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.gcode.doing import what_of
 from ...rrf.wire.gcode_words import words
 from ..link import Doing, Link
 from ..terminal import RecentPolls
@@ -149,7 +150,8 @@ class SerialLink(Link):
     def doing(self):
         if self.connection is None or self.awaited is None:
             return None
-        return Doing(self.awaited_command, "other", self.awaited_since)
+        command = self.awaited_command
+        return Doing(command, what_of(command), self.awaited_since)
 
     def has_polled(self, command):
         return command in self.polled
