@@ -65,14 +65,15 @@ class Assembly:
         self._make_web()
         self._make_integrations()
         self._make_hooks()
-        self._listeners.attach(self._table_of_listeners())
-        self.worker.attach(self._notes(), self._listeners.ticks())
+        self._listeners.attach(self.listeners())
+        self.worker.attach(self.notes(), self._listeners.ticks())
 
     def _make_ground(self):
         """Make what all else asks: the link, what is known of the machine, the worker."""
         host = self._host
         self.worker = Worker("rrfmodel.worker")
         self._listeners = Listeners()
+        self.tell = self._listeners.replied
         self.link = SerialLink(host.printer, host.profiles, self._clock)
         self._follower = Follower()
         self._known = Known(self._follower, self.link, self._clock)
@@ -220,7 +221,7 @@ class Assembly:
         ]
         """What looks at requests to OctoPrint's API."""
 
-    def _table_of_listeners(self):
+    def listeners(self):
         """Return who is told, in order; all by the worker's thread.
 
         The guard comes first: it looks at the model before the poller forgets it, and pauses
@@ -246,7 +247,7 @@ class Assembly:
             self.moonraker.sockets,
         )
 
-    def _notes(self):
+    def notes(self):
         """Return what the worker does for each note: name to handler."""
         poller, guard = self._poller, self._guard
         return {
