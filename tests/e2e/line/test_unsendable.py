@@ -46,7 +46,7 @@ def arrived(server, board, *lines):
     )
     assert time.monotonic() - started < 10
     # what comes from OctoPrint and the plugin at any time
-    own = ("M409", "M105", "M118", "M27", "M20 S3")
+    own = ("M409", "M105", "M118", "M27", "M20")
     return [text for text in helpers.commands(board)[before:] if not text.startswith(own)]
 
 
