@@ -72,37 +72,47 @@ def ports_dir(tmp_path_factory):
     return tmp_path_factory.mktemp("ports")
 
 
-@contextlib.contextmanager
-def _servers(make_basedir, ports_dir):
-    """Yield a function that starts servers; all of them are stopped in the end."""
-    from tests.support.server import OctoPrintServer
+@pytest.fixture(scope="session")
+def server_pool(octoprint_version, tmp_path_factory, ports_dir):
+    """The servers that the tests of this process have one after another."""
+    from tests.support.pool import ServerPool
 
+    pool = ServerPool(lambda: tmp_path_factory.mktemp("octoprint"), str(ports_dir / "*"))
+    yield pool
+    pool.stop()
+
+
+@contextlib.contextmanager
+def _servers(pool):
+    """Yield a function that lends servers; all of them are given back in the end."""
     with contextlib.ExitStack() as stack:
 
-        def start(**options):
-            options.setdefault("ports_glob", str(ports_dir / "*"))
-            server = OctoPrintServer(make_basedir(), **options)
+        def lend(**options):
+            server = pool.lend(**options)
             RUNNING.append(server)
             stack.callback(RUNNING.remove, server)
-            stack.callback(server.stop)
-            return server.start()
+            stack.callback(pool.take_back, server)
+            return server
 
-        yield start
+        yield lend
 
 
 @pytest.fixture
-def server_factory(octoprint_version, tmp_path, ports_dir):
-    """Function that returns a running ``OctoPrintServer`` with the options given."""
-    numbers = itertools.count()
-    with _servers(lambda: tmp_path / f"octoprint-{next(numbers)}", ports_dir) as start:
-        yield start
+def server_factory(server_pool):
+    """Function that returns a running ``OctoPrintServer`` with the options given.
+
+    Nothing is connected, and all but the logs and counters is as after a start; with ``own=True``
+    it is one that has just been started.
+    """
+    with _servers(server_pool) as lend:
+        yield lend
 
 
 @pytest.fixture(scope="module")
-def module_server_factory(octoprint_version, tmp_path_factory, ports_dir):
+def module_server_factory(server_pool):
     """``server_factory`` for servers that all tests of a module share."""
-    with _servers(lambda: tmp_path_factory.mktemp("octoprint"), ports_dir) as start:
-        yield start
+    with _servers(server_pool) as lend:
+        yield lend
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,10 @@ from typing import Callable, TypeVar
 
 T = TypeVar("T")
 
-POLL_SECONDS = 0.05
+# the one who waits takes time from what it waits for, hence seldom where it takes long anyway
+SHORTEST_PAUSE = 0.02
+LONGEST_PAUSE = 0.2
+PAUSE_SHARE = 0.1
 
 # a CI machine is often shared; whoever waits longer only loses time where the test fails anyway
 PATIENCE = 2 if os.environ.get("CI") else 1
@@ -19,10 +22,12 @@ def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the c
 
     ``timeout`` is in seconds of a machine that does nothing else.
     """
-    deadline = time.monotonic() + timeout * PATIENCE
+    started = time.monotonic()
+    deadline = started + timeout * PATIENCE
     while True:
         value = predicate()
         if value:
             return value
         assert time.monotonic() < deadline, f"waited {timeout} s for {what}; last value {value!r}"
-        time.sleep(POLL_SECONDS)
+        waited = time.monotonic() - started
+        time.sleep(min(max(waited * PAUSE_SHARE, SHORTEST_PAUSE), LONGEST_PAUSE))
