@@ -33,7 +33,6 @@ AT_REST = {
     "firmware": None,
     "blocked": None,
     "age": None,
-    "resets": 0,
 }
 """What the plugin says of itself while nothing is connected."""
 

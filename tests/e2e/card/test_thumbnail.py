@@ -94,6 +94,7 @@ def test_qoi_comes_as_png(server):
     assert found.content.startswith(b"\x89PNG")
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("name",))
 @pytest.mark.parametrize("name", ["none.gcode", "script.gcode", "nowhere.gcode"])
 def test_what_has_no_picture(server, name):
     found = get(server, f"0:/gcodes/{name}")
@@ -101,6 +102,7 @@ def test_what_has_no_picture(server, name):
     assert found.json()["error"]
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("path",))
 @pytest.mark.parametrize("path", ["", '"', "a;M112", "a\nM112", "x" * 121])
 def test_a_path_that_cannot_be_sent_is_refused(server, board, path):
     assert get(server, path).status_code == 400

@@ -10,7 +10,7 @@ from tests.support.push import PushListener
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.both_hosts("each has its own code for the serial line", once_for=("line",)),
     pytest.mark.slow,
     pytest.mark.timeout(240),
 ]
@@ -46,7 +46,7 @@ def arrived(server, board, *lines):
     )
     assert time.monotonic() - started < 10
     # what comes from OctoPrint and the plugin at any time
-    own = ("M409", "M105", "M118", "M27", "M20 S3")
+    own = ("M409", "M105", "M118", "M27", "M20")
     return [text for text in helpers.commands(board)[before:] if not text.startswith(own)]
 
 

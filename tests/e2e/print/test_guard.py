@@ -10,7 +10,9 @@ from tests.support.push import PushListener
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each streams and pauses with its own code"),
+    pytest.mark.both_hosts(
+        "each streams and pauses with its own code", once_for=("fault", "code", "firmware")
+    ),
     pytest.mark.slow,
     pytest.mark.timeout(300),
 ]
@@ -126,7 +128,8 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         server.wait_state("Printing")
         # OctoPrint tells of it later than its state shows it
         server.wait_for(lambda: pause(server) is None, 5, "the end of the pause")
-        time.sleep(3)
+        # time enough to be paused once more
+        helpers.wait_polls(server, 2)
         assert server.state() == "Printing"
         assert len(push.events("PrintPaused")) == 1
         assert paused(push) == [notice]
@@ -191,7 +194,7 @@ def test_each_can_be_switched_off(server, printing):
         board = printing()
         board.board.inject("heater_fault:1")
         server.wait_for(lambda: "heater_fault_1" in codes(server), PAUSE_SECONDS, "the warning")
-        time.sleep(3)
+        helpers.wait_polls(server, 2)
         assert server.state() == "Printing"
     finally:
         server.set_setting("plugins.rrfmodel.guard", {"heater_fault": True})

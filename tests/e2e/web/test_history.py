@@ -24,6 +24,7 @@ def values(told, name):
     return next((each["values"] for each in told["series"] if each["id"] == name), [])
 
 
+@pytest.mark.both_hosts("the endpoint is there")
 def test_samples_of_heaters(server, board):
     board.board.execute("M568 P0 S185 R90 A1", channel="http")
     server.wait_for(lambda: 90.0 in values(history(server), "heater1.target"), 20, "a sample")
@@ -44,6 +45,7 @@ def test_only_what_is_new(server):
     assert len(told["times"]) < len(history(server)["times"])
 
 
+@pytest.mark.both_hosts("the endpoint is there", once_for=("since",))
 @pytest.mark.parametrize("since", ["", "yesterday", "nan", "1,5"])
 def test_malformed(server, since):
     response = server.get(PATH, params={"since": since})
