@@ -25,16 +25,94 @@ hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "bench")
 RUNNING = []
 
 
+# seconds that the tests of a module take one after the other, where that is more than half a
+# minute; a rough guess is enough, for it only says what begins first
+SECONDS = {
+    "test_package": 300,
+    "line/test_faults": 280,
+    "line/test_operations_heat": 220,
+    "line/test_truth": 220,
+    "line/test_operations": 160,
+    "line/test_faults_early": 130,
+    "line/test_recover": 120,
+    "line/test_fresh": 110,
+    "line/test_heatup": 110,
+    "line/test_long_commands": 110,
+    "line/test_reading": 90,
+    "line/test_unsendable": 90,
+    "line/test_connect": 70,
+    "line/test_slow_line": 60,
+    "line/test_not_rrf": 50,
+    "web/test_commands_states": 180,
+    "web/test_commands_http": 150,
+    "web/test_openapi": 110,
+    "web/test_http": 100,
+    "web/test_commands": 90,
+    "web/test_commands_boxes": 90,
+    "web/test_moonraker": 80,
+    "web/test_websocket": 70,
+    "web/test_history": 50,
+    "print/test_print": 150,
+    "print/test_guard": 150,
+    "card/test_sdcard": 300,
+    "card/test_thumbnail": 40,
+    "card/test_files": 60,
+    "setup/test_settings": 100,
+    "setup/test_buttons": 60,
+    "integrations/test_layer_progress": 120,
+    "integrations/test_mqtt": 90,
+    "integrations/test_prompt": 50,
+    "integrations/test_events": 50,
+}
+
+PARTS = {
+    "line/test_faults": 4,
+    "line/test_operations_heat": 3,
+    "line/test_truth": 2,
+    "line/test_operations": 2,
+    "line/test_faults_early": 2,
+    "line/test_recover": 2,
+    "line/test_heatup": 2,
+    "line/test_unsendable": 2,
+    "web/test_commands_states": 2,
+    "web/test_commands_http": 2,
+    "print/test_print": 3,
+    "print/test_guard": 3,
+    "card/test_sdcard": 4,
+}
+"""Modules whose tests go to several workers; each part has its own server and boards."""
+
+# among those that aren't named: a page takes longer than a look at a module
+BROWSER_SECONDS = 60
+
+
+def _module(item):
+    """Return what the tables have as the name of a test's module."""
+    name = item.nodeid.partition("::")[0].rpartition(".py")[0]
+    return name.partition("tests/")[2].removeprefix("e2e/")
+
+
+def _seconds(item):
+    is_of_the_page = "page" in getattr(item, "fixturenames", ())
+    return SECONDS.get(_module(item), BROWSER_SECONDS if is_of_the_page else 0)
+
+
 # xdist's own implementation puts the group into the name of the test, so it has to come later
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Slow tests first, and the tests that share a server of their module on one worker."""
+    """What takes long first, and the tests that share a server of their module on one worker."""
+    sharing = {}
     for item in items:
         if "module_server_factory" in item.fixturenames and not any(
             item.iter_markers("xdist_group")
         ):
-            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0]))
-    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+            sharing.setdefault(_module(item), []).append(item)
+    for module, tests in sharing.items():
+        parts = PARTS.get(module, 1)
+        for number, item in enumerate(tests):
+            part = number * parts // len(tests)
+            item.add_marker(pytest.mark.xdist_group(f"{module}-{part}" if part else module))
+    items.sort(key=_seconds, reverse=True)
 
 
 @pytest.hookimpl(wrapper=True)
