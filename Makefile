@@ -27,7 +27,7 @@ export PIP_NO_INPUT := 1
 .PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench demo translations environments clean
 
 help:
-	@echo "make test           lint, then the tests in OctoPrint 1.11 and 2.0"
+	@echo "make test           lint and the tests in OctoPrint 1.11 and 2.0, side by side"
 	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
 	@echo "make lint           ruff and mypy; make format lets ruff put files in shape"

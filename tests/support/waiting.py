@@ -17,17 +17,24 @@ PAUSE_SHARE = 0.1
 PATIENCE = 2 if os.environ.get("CI") else 1
 
 
+def within(seconds: float) -> float:
+    """Return how long something may take now that takes so long on a machine that is idle.
+
+    Where more wants to run than there are processors, each gets its share only.
+    """
+    return seconds * PATIENCE * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+
+
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:
     """Return the predicate's first true value; AssertionError with ``what`` when time is up.
 
     ``timeout`` is in seconds of a machine that does nothing else.
     """
     started = time.monotonic()
-    deadline = started + timeout * PATIENCE
     while True:
         value = predicate()
         if value:
             return value
-        assert time.monotonic() < deadline, f"waited {timeout} s for {what}; last value {value!r}"
         waited = time.monotonic() - started
+        assert waited < within(timeout), f"waited {timeout} s for {what}; last value {value!r}"
         time.sleep(min(max(waited * PAUSE_SHARE, SHORTEST_PAUSE), LONGEST_PAUSE))
