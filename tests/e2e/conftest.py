@@ -80,8 +80,11 @@ def board(request, module_board_factory):
 
 @pytest.fixture(scope="module")
 def server(request, module_server_factory):
-    """The module's server, connected to its ``board`` where ``BOARD`` says that there is one."""
-    made = module_server_factory()
+    """The module's server, connected to its ``board`` where ``BOARD`` says that there is one.
+
+    ``SERVER`` has its options.
+    """
+    made = module_server_factory(**getattr(request.module, "SERVER", {}))
     if hasattr(request.module, "BOARD"):
         helpers.connect(made, request.getfixturevalue("board"))
     return made

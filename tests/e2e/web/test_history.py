@@ -11,6 +11,8 @@ LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 100))
 """A print of three layers: seconds on the board's clock, which is twenty times as fast."""
 
 
+# what was connected before would be in the history
+SERVER = {"own": True}
 BOARD = {"machine": "cartesian", "speed": 20}
 
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import time
 from urllib.parse import urlsplit
 
 import aiohttp
@@ -196,12 +197,14 @@ def test_refuses_what_it_can_not_read(socket, board, method, params, code):
 @pytest.mark.both_hosts("lines go through the queue of the host")
 def test_script_goes_to_the_printer(socket, board, server):
     before = len(board.board.received())
+    started = time.time()
     assert socket.result("printer.gcode.script", script="M117 over the socket\nM115") == "ok"
     server.wait_for(lambda: "M115" in helpers.commands(board)[before:], 10, "the script")
     assert "M117 over the socket" in helpers.commands(board)[before:]
     (line,) = socket.wait_for("notify_gcode_response", lambda found: "FIRMWARE_NAME" in found[0])
     assert "RepRapFirmware" in line
     store = server.get("/plugin/rrfmodel/server/gcode_store").json()["result"]["gcode_store"]
+    store = [entry for entry in store if entry["time"] >= started]
     assert {"M117 over the socket", "M115"} <= {
         entry["message"] for entry in store if entry["type"] == "command"
     }
