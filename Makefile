@@ -4,7 +4,7 @@
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9
-JOBS ?= 4
+JOBS ?= 5
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 
@@ -16,8 +16,9 @@ PLAIN := .venv/octoprint-1.11-plain/.ready .venv/octoprint-2.0-plain/.ready
 # what needs no OctoPrint runs once, in the first environment
 PURE := tests/rrf tests/simulator tests/test_layering.py
 
-# the tests mostly wait for servers, so that more of them than cores run side by side
-PYTEST := -m pytest -n $(JOBS) --dist loadgroup $(PYTEST_ARGS)
+# the tests mostly wait for servers, so that more of them than cores run side by side; what takes
+# long begins first, which tests/conftest.py sees to
+PYTEST := -m pytest -n $(JOBS) --dist loadgroup --no-loadscope-reorder $(PYTEST_ARGS)
 
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
@@ -26,7 +27,7 @@ export PIP_NO_INPUT := 1
 .PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench demo translations environments clean
 
 help:
-	@echo "make test           lint, then the tests in OctoPrint 1.11 and 2.0"
+	@echo "make test           lint and the tests in OctoPrint 1.11 and 2.0, side by side"
 	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
 	@echo "make lint           ruff, mypy and the floors; make format lets ruff put files in shape"
@@ -66,11 +67,8 @@ environments: $(READY) $(PLAIN)
 
 test:
 	@$(MAKE) --no-print-directory --jobs=2 environments
-	@status=0; \
-	for step in lint test-1.11 test-2.0; do \
-		$(MAKE) --no-print-directory $$step || status=1; \
-	done; \
-	exit $$status
+	@echo "lint and the tests in both OctoPrints, each told as it ends"
+	@$(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target lint test-1.11 test-2.0
 
 test-1.11: .venv/octoprint-1.11/.ready .venv/octoprint-1.11-plain/.ready
 	@echo "tests in OctoPrint 1.11"

@@ -25,16 +25,94 @@ hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "bench")
 RUNNING = []
 
 
+# seconds that the tests of a module take one after the other, where that is more than half a
+# minute; a rough guess is enough, for it only says what begins first
+SECONDS = {
+    "test_package": 300,
+    "line/test_faults": 280,
+    "line/test_operations_heat": 220,
+    "line/test_truth": 220,
+    "line/test_operations": 160,
+    "line/test_faults_early": 130,
+    "line/test_recover": 120,
+    "line/test_fresh": 110,
+    "line/test_heatup": 110,
+    "line/test_long_commands": 110,
+    "line/test_reading": 90,
+    "line/test_unsendable": 90,
+    "line/test_connect": 70,
+    "line/test_slow_line": 60,
+    "line/test_not_rrf": 50,
+    "web/test_commands_states": 180,
+    "web/test_commands_http": 150,
+    "web/test_openapi": 110,
+    "web/test_http": 100,
+    "web/test_commands": 90,
+    "web/test_commands_boxes": 90,
+    "web/test_moonraker": 80,
+    "web/test_websocket": 70,
+    "web/test_history": 50,
+    "print/test_print": 150,
+    "print/test_guard": 150,
+    "card/test_sdcard": 300,
+    "card/test_thumbnail": 40,
+    "card/test_files": 60,
+    "setup/test_settings": 100,
+    "setup/test_buttons": 60,
+    "integrations/test_layer_progress": 120,
+    "integrations/test_mqtt": 90,
+    "integrations/test_prompt": 50,
+    "integrations/test_events": 50,
+}
+
+PARTS = {
+    "line/test_faults": 4,
+    "line/test_operations_heat": 3,
+    "line/test_truth": 2,
+    "line/test_operations": 2,
+    "line/test_faults_early": 2,
+    "line/test_recover": 2,
+    "line/test_heatup": 2,
+    "line/test_unsendable": 2,
+    "web/test_commands_states": 2,
+    "web/test_commands_http": 2,
+    "print/test_print": 3,
+    "print/test_guard": 3,
+    "card/test_sdcard": 4,
+}
+"""Modules whose tests go to several workers; each part has its own server and boards."""
+
+# among those that aren't named: a page takes longer than a look at a module
+BROWSER_SECONDS = 60
+
+
+def _module(item):
+    """Return what the tables have as the name of a test's module."""
+    name = item.nodeid.partition("::")[0].rpartition(".py")[0]
+    return name.partition("tests/")[2].removeprefix("e2e/")
+
+
+def _seconds(item):
+    is_of_the_page = "page" in getattr(item, "fixturenames", ())
+    return SECONDS.get(_module(item), BROWSER_SECONDS if is_of_the_page else 0)
+
+
 # xdist's own implementation puts the group into the name of the test, so it has to come later
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Slow tests first, and the tests that share a server of their module on one worker."""
+    """What takes long first, and the tests that share a server of their module on one worker."""
+    sharing = {}
     for item in items:
         if "module_server_factory" in item.fixturenames and not any(
             item.iter_markers("xdist_group")
         ):
-            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0]))
-    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+            sharing.setdefault(_module(item), []).append(item)
+    for module, tests in sharing.items():
+        parts = PARTS.get(module, 1)
+        for number, item in enumerate(tests):
+            part = number * parts // len(tests)
+            item.add_marker(pytest.mark.xdist_group(f"{module}-{part}" if part else module))
+    items.sort(key=_seconds, reverse=True)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -72,37 +150,47 @@ def ports_dir(tmp_path_factory):
     return tmp_path_factory.mktemp("ports")
 
 
-@contextlib.contextmanager
-def _servers(make_basedir, ports_dir):
-    """Yield a function that starts servers; all of them are stopped in the end."""
-    from tests.support.server import OctoPrintServer
+@pytest.fixture(scope="session")
+def server_pool(octoprint_version, tmp_path_factory, ports_dir):
+    """The servers that the tests of this process have one after another."""
+    from tests.support.pool import ServerPool
 
+    pool = ServerPool(lambda: tmp_path_factory.mktemp("octoprint"), str(ports_dir / "*"))
+    yield pool
+    pool.stop()
+
+
+@contextlib.contextmanager
+def _servers(pool):
+    """Yield a function that lends servers; all of them are given back in the end."""
     with contextlib.ExitStack() as stack:
 
-        def start(**options):
-            options.setdefault("ports_glob", str(ports_dir / "*"))
-            server = OctoPrintServer(make_basedir(), **options)
+        def lend(**options):
+            server = pool.lend(**options)
             RUNNING.append(server)
             stack.callback(RUNNING.remove, server)
-            stack.callback(server.stop)
-            return server.start()
+            stack.callback(pool.take_back, server)
+            return server
 
-        yield start
+        yield lend
 
 
 @pytest.fixture
-def server_factory(octoprint_version, tmp_path, ports_dir):
-    """Function that returns a running ``OctoPrintServer`` with the options given."""
-    numbers = itertools.count()
-    with _servers(lambda: tmp_path / f"octoprint-{next(numbers)}", ports_dir) as start:
-        yield start
+def server_factory(server_pool):
+    """Function that returns a running ``OctoPrintServer`` with the options given.
+
+    Nothing is connected, and all but the logs and counters is as after a start; with ``own=True``
+    it is one that has just been started.
+    """
+    with _servers(server_pool) as lend:
+        yield lend
 
 
 @pytest.fixture(scope="module")
-def module_server_factory(octoprint_version, tmp_path_factory, ports_dir):
+def module_server_factory(server_pool):
     """``server_factory`` for servers that all tests of a module share."""
-    with _servers(lambda: tmp_path_factory.mktemp("octoprint"), ports_dir) as start:
-        yield start
+    with _servers(server_pool) as lend:
+        yield lend
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +259,7 @@ def browser():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
     from playwright.sync_api import expect, sync_playwright
 
-    expect.set_options(timeout=waiting.PATIENCE * 10_000)
+    expect.set_options(timeout=waiting.within(10_000))
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS

@@ -43,7 +43,7 @@ def test_guard_ends_the_command_when_its_parent_is_killed():
     with subprocess.Popen([sys.executable, "-c", parent], stdout=subprocess.PIPE) as process:
         pid = int(process.stdout.readline())
         process.kill()
-        wait_for(lambda: not is_running(pid), 30, "the command's end")
+        assert wait_for(lambda: not is_running(pid), 30, "the command's end")
 
 
 def test_guard_hands_on_the_exit_status():

@@ -126,11 +126,25 @@ class Bench:
         response = (client or self.server).post(f"/api/printer/{path}", json=body)
         if self._state != "disconnected":
             self.machine.arrive()
-        lines = helpers.commands(self.pty)[before:]
-        wire = [line for line in lines if line and not line.startswith(NOT_OF_THE_REQUEST)]
+        wire = self._sent_since(before)
         if response.status_code >= 400:
             assert response.json()["error"]
         return response.status_code, wire
+
+    def post_all(self, path, bodies):
+        """As ``post`` for one body after another; return the status of each, by its text."""
+        before = len(self.machine.board.received())
+        statuses = {}
+        for body in bodies:
+            response = self.server.post(f"/api/printer/{path}", json=body)
+            statuses[str(body)] = response.status_code
+            assert response.ok or response.json()["error"]
+        self.machine.arrive()
+        return statuses, self._sent_since(before)
+
+    def _sent_since(self, before):
+        lines = helpers.commands(self.pty)[before:]
+        return [line for line in lines if line and not line.startswith(NOT_OF_THE_REQUEST)]
 
     def get(self, path="", **query):
         return self.server.get(f"/api/printer{path}", params=query)

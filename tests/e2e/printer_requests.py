@@ -229,9 +229,6 @@ def rows():
     for path, pairs in RIGHT.items():
         for body, wire in pairs:
             yield "operational", path, body, 204, wire
-    for path, bodies in MALFORMED.items():
-        for body in bodies:
-            yield "operational", path, body, 400, []
     yield from sorted(state_rows(), key=lambda row: list(STATES).index(row[0]))
 
 

@@ -109,6 +109,8 @@ def configuration(
         "gcodeAnalysis": {"runAt": "never"},
         # the wizard for the first machine would stand before what a test looks at
         "plugins": {"_disabled": DISABLED_PLUGINS, "rrfmodel": {"wizard_seen": True}},
+        # where OctoPrint itself writes it when a profile is changed
+        "printerProfiles": {"default": "_default"},
         "server": {
             "firstRun": False,
             "secretKey": "0123456789abcdef" * 2,
@@ -166,13 +168,18 @@ def write_basedir(
         for user in users
     }
     _dump(basedir / "users.yaml", {"_version": 2, **accounts})
+    (basedir / "printerProfiles").mkdir(exist_ok=True)
+    _dump(basedir / "printerProfiles" / "_default.profile", complete_profile(profile))
+
+
+def complete_profile(profile: dict[str, Any] | None) -> dict[str, Any]:
+    """Return a whole printer profile; ``profile`` holds what differs from ``DEFAULT_PROFILE``."""
     complete = merged(DEFAULT_PROFILE, profile)
     extruder = complete["extruder"]
     # one offset for each extruder; where there are more extruders the rest lie on the first
     missing = extruder["count"] - len(extruder["offsets"])
     extruder["offsets"] = extruder["offsets"] + [[0.0, 0.0]] * missing
-    (basedir / "printerProfiles").mkdir(exist_ok=True)
-    _dump(basedir / "printerProfiles" / "_default.profile", complete)
+    return complete
 
 
 def _dump(path: Path, content: dict[str, Any]) -> None:

@@ -21,6 +21,9 @@ T = TypeVar("T")
 # five seconds on an idle machine; several servers starting at once on two cores need far more
 START_SECONDS = 120
 
+LOG = "logs/octoprint.log"
+SERIAL_LOG = "logs/serial.log"
+
 
 class ServerDied(AssertionError):
     """The process ended before it answered; the message carries the end of its log."""
@@ -61,6 +64,8 @@ class OctoPrintServer:
         self._python = python
         self._environment = environment or {}
         self._process: subprocess.Popen[bytes] | None = None
+        # file below the base folder -> its inode and length when what it had was forgotten
+        self._forgotten: dict[str, tuple[int, int]] = {}
         self._admin = self.client(users[0])
         if ports_glob is not None:
             serial = {"additionalPorts": [ports_glob], **(serial or {})}
@@ -137,13 +142,21 @@ class OctoPrintServer:
 
     # logs
 
+    def forget_logs(self) -> None:
+        """Leave out of the logs, from now on, what they have had until now."""
+        for name in (LOG, SERIAL_LOG):
+            path = self.basedir / name
+            if path.exists():
+                found = path.stat()
+                self._forgotten[name] = found.st_ino, found.st_size
+
     def log(self) -> str:
         """Return octoprint.log as it is now."""
-        return self._text("logs/octoprint.log")
+        return self._text(LOG)
 
     def serial_log(self) -> str:
         """Return serial.log as it is now; its marks of direction differ between the versions."""
-        return self._text("logs/serial.log")
+        return self._text(SERIAL_LOG)
 
     def sent(self) -> list[str]:
         """Return the lines that went out on the serial port, in order."""
@@ -173,7 +186,14 @@ class OctoPrintServer:
 
     def _text(self, name: str) -> str:
         path = self.basedir / name
-        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+        if not path.exists():
+            return ""
+        with path.open("rb") as file:
+            inode, length = self._forgotten.get(name, (0, 0))
+            # OctoPrint begins another file from time to time
+            if os.fstat(file.fileno()).st_ino == inode:
+                file.seek(length)
+            return file.read().decode("utf-8", "replace")
 
     # HTTP
 

@@ -8,10 +8,21 @@ from typing import Callable, TypeVar
 
 T = TypeVar("T")
 
-POLL_SECONDS = 0.05
+# the one who waits takes time from what it waits for, hence seldom where it takes long anyway
+SHORTEST_PAUSE = 0.02
+LONGEST_PAUSE = 0.2
+PAUSE_SHARE = 0.1
 
 # a CI machine is often shared; whoever waits longer only loses time where the test fails anyway
 PATIENCE = 2 if os.environ.get("CI") else 1
+
+
+def within(seconds: float) -> float:
+    """Return how long something may take now that takes so long on a machine that is idle.
+
+    Where more wants to run than there are processors, each gets its share only.
+    """
+    return seconds * PATIENCE * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
 
 
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:
@@ -19,10 +30,11 @@ def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the c
 
     ``timeout`` is in seconds of a machine that does nothing else.
     """
-    deadline = time.monotonic() + timeout * PATIENCE
+    started = time.monotonic()
     while True:
         value = predicate()
         if value:
             return value
-        assert time.monotonic() < deadline, f"waited {timeout} s for {what}; last value {value!r}"
-        time.sleep(POLL_SECONDS)
+        waited = time.monotonic() - started
+        assert waited < within(timeout), f"waited {timeout} s for {what}; last value {value!r}"
+        time.sleep(min(max(waited * PAUSE_SHARE, SHORTEST_PAUSE), LONGEST_PAUSE))

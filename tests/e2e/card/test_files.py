@@ -76,6 +76,7 @@ def test_a_list_is_kept_until_the_card_changes(server, board):
     assert len(asked(board, "0:/macros/kept")) == 2
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("path",))
 @pytest.mark.parametrize(
     "path", ["", " ", "0:/macros;M112", '0:/"x', "0:/a\nM112", "0:/a\u2028b", "0:/" + "x" * 120]
 )

@@ -103,6 +103,7 @@ def assert_no_harm(board):
 # listing
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
 @pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.3", "3.6"])
 def test_card_is_listed(server, connected, files, firmware):
     board = connected(firmware=firmware)
@@ -160,8 +161,12 @@ def test_release_and_init(server, connected, files, location):
     assert files() == {}
     assert server.post("/api/printer/sd", json={"command": "init"}).status_code == 204
     server.wait_for(lambda: set(files()) == set(FILES), 10, "the files to be back")
+    before = len(board.board.received())
     assert server.post("/api/printer/sd", json={"command": "refresh"}).status_code == 204
-    time.sleep(1)
+    server.wait_for(
+        lambda: "M20" in helpers.commands(board)[before:], 10, "OctoPrint to ask for the list"
+    )
+    helpers.wait_polls(server, 2)
     assert set(files()) == set(FILES)
 
 
@@ -185,6 +190,7 @@ def test_file_is_selected(server, connected, select, files, name):
     assert board.board.job.path == FILES[name]
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("machine", "firmware"))
 @pytest.mark.parametrize(
     "machine, firmware",
     [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.6")],
@@ -199,17 +205,17 @@ def test_print_pause_resume_cancel(server, connected, select, machine, firmware)
     do(server, command="pause", action="pause")
     server.wait_state("Paused", 30)
     assert job.state == "paused"
-    time.sleep(3)
+    helpers.wait_polls(server, 3)
     assert server.state() == "Paused"
     do(server, command="pause", action="resume")
     server.wait_state("Printing", 30)
     assert job.state == "printing"
-    time.sleep(3)
+    helpers.wait_polls(server, 3)
     assert server.state().startswith("Printing")
     do(server, command="cancel")
     server.wait_state("Operational", 30)
     assert not job.is_printing
-    time.sleep(3)
+    helpers.wait_polls(server, 3)
     assert server.state() == "Operational"
     sent = helpers.commands(board)
     assert sent[-1] != "M26 S0"
@@ -241,7 +247,7 @@ def test_pause_that_is_put_off_is_waited_for(server, connected, select):
     do(server, command="cancel")
     server.wait_state("Operational", 30)
     wait_job_gone(server, board)
-    time.sleep(3)
+    helpers.wait_polls(server, 3)
     assert server.state() == "Operational"
     assert_no_harm(board)
 

@@ -42,11 +42,13 @@ def wait_told(server, push, name, payload, before=0):
     )
 
 
+@pytest.mark.both_hosts("each has its own event bus")
 def test_complete_model_is_told_once(push):
     assert len(told(push, "model_ready")) == 1
     assert told(push, "heater_fault") == told(push, "firmware_reset") == []
 
 
+@pytest.mark.both_hosts("each has its own event bus")
 def test_tool(server, push, board):
     board.board.execute("G28")
     board.board.execute("T3")

@@ -31,6 +31,7 @@ def seen(server):
     return response.json()
 
 
+@pytest.mark.both_hosts("each hands helpers and hooks to plugins")
 def test_sees_the_model(server, board):
     server.wait_for(lambda: "heat" in seen(server)["keys_seen"], 10, "the hook to be called")
     now = seen(server)
@@ -57,6 +58,7 @@ def test_lamp_follows_a_fault(server, board):
     assert "The lamp is on" in server.log()
 
 
+@pytest.mark.both_hosts("lines go through the queue of the host")
 def test_asks_the_printer(server, board):
     asked = server.post(ENDPOINT, json={"command": "ask", "key": "move.axes[0].letter"})
     assert asked.status_code == 204, asked.text
@@ -83,6 +85,7 @@ def test_refusal_is_a_sentence_and_nothing_is_sent(server, board, request_body, 
     assert not [line for line in sent if line.startswith(("M562", "M112", "G28"))]
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_needs_the_permissions(server, board):
     with server.client(READER) as reader:
         assert reader.get(ENDPOINT).status_code == 200

@@ -102,6 +102,7 @@ def test_print_from_the_card(server, connect):
         assert payload["currentFilename"] == "-"
 
 
+@pytest.mark.both_hosts("each streams and pauses with its own code")
 def test_print_that_octoprint_streams(server, connect):
     connect(server)
     server.upload("streamed.gcode", tower())

@@ -38,6 +38,7 @@ def wait_told(server, broker, name, fits, topic=TOPIC):
     server.wait_for(is_told, 20, f"the broker to know of {name}")
 
 
+@pytest.mark.both_hosts("each hands helpers to plugins")
 def test_model_is_published_and_followed(server, broker, board_factory):
     wait_told(server, broker, "status", lambda state: not state["connected"])
     board = board_factory()
@@ -108,6 +109,7 @@ def test_nothing_waits_for_the_broker(server, broker, board_factory):
     assert 1 <= len(complaints) <= 2
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_prometheus_may_send_the_key_as_a_bearer_token(server):
     """As extras/fleet/prometheus.yml does."""
     with server.client() as nobody:

@@ -50,6 +50,9 @@ def press(server, choice):
     assert response.status_code in (200, 204), response.text
 
 
+@pytest.mark.both_hosts(
+    "each has its own dialog for prompts", once_for=("firmware", "choice", "command", "answer")
+)
 @pytest.mark.parametrize(
     "firmware, choice, command, answer",
     [
@@ -85,6 +88,7 @@ def test_choices(server, connect):
         server.wait_for(lambda: board.board.boxes.answers == [1], 10, "the answer")
 
 
+@pytest.mark.both_hosts("each has its own dialog for prompts")
 def test_closes_when_answered_elsewhere(server, connect):
     board = connect()
     with PushListener(server, ADMIN) as push:

@@ -47,6 +47,7 @@ def test_switches_and_knows_the_state(server, board):
         assert sent == [command]
 
 
+@pytest.mark.both_hosts("each streams and pauses with its own code")
 def test_refusal_is_logged_and_nothing_is_sent(server, board):
     server.commands("G28")
     helpers.wait_value(server, "move.axes[].homed", lambda homed: all(homed), 60)

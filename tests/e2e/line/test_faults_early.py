@@ -5,7 +5,9 @@ import pytest
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.both_hosts(
+        "each has its own code for the serial line", once_for=("fault", "firmware", "counts")
+    ),
     pytest.mark.timeout(180),
 ]
 

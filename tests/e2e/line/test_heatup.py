@@ -8,7 +8,7 @@ from tests.support.push import PushListener
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
     pytest.mark.slow,
     pytest.mark.timeout(240),
 ]

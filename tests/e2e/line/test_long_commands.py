@@ -5,7 +5,7 @@ import pytest
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.both_hosts("each has its own code for the serial line", once_for=("board",)),
     pytest.mark.slow,
     pytest.mark.timeout(120),
 ]

@@ -47,10 +47,13 @@ def sent(server):
 
 @pytest.fixture(scope="module")
 def sessions(module_server_factory):
-    """Return what two servers sent, one with the plugin and one without, and the first of them."""
+    """Return the server with the plugin, what it sent, what one without it sent, and what was.
+
+    The last of them is the configuration and the counters before all that.
+    """
     virtual = {"virtual_printer": {"enabled": True}}
     with_plugin = module_server_factory(plugins_config=virtual, profile=PROFILE)
-    config = without_own_section(with_plugin)
+    before = without_own_section(with_plugin), helpers.status(with_plugin)["counters"]
     lines = session(with_plugin)
     without = module_server_factory(
         plugins_config=virtual,
@@ -58,7 +61,7 @@ def sessions(module_server_factory):
         settings={"plugins": {"_disabled": disabled(with_plugin)}},
     )
     assert without.get("/plugin/rrfmodel/status").status_code == 404
-    return with_plugin, lines, session(without), config
+    return with_plugin, lines, session(without), before
 
 
 def disabled(server):
@@ -123,12 +126,12 @@ def test_requests_are_answered_by_octoprint_itself(sessions):
 
 
 def test_state_says_so(sessions):
-    server, *_ = sessions
+    server, _, _, (_, counters) = sessions
     state = helpers.status(server)
     assert (state["connected"], state["is_rrf"], state["ready"]) == (True, False, False)
     assert state["protocol"] is state["firmware"] is state["blocked"] is state["age"] is None
     assert state["warnings"] == []
-    assert set(state["counters"].values()) == {0}
+    assert state["counters"] == counters
     for path in ("/plugin/rrfmodel/model", "/plugin/rrfmodel/model?key=state&flags=v"):
         response = server.get(path)
         assert response.status_code == 503
@@ -139,5 +142,5 @@ def test_state_says_so(sessions):
 
 
 def test_settings_are_as_they_were(sessions):
-    server, _, _, before = sessions
+    server, _, _, (before, _) = sessions
     assert without_own_section(server) == before

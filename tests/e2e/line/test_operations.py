@@ -11,7 +11,9 @@ from tests.support.push import PushListener
 from .. import helpers
 from ..operations import AS_OCTOPRINT, on
 
-pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+pytestmark = pytest.mark.both_hosts(
+    "each has its own code for the serial line", once_for=("machine",)
+)
 
 MOVED = on(
     "one tool 2.05",

@@ -4,7 +4,9 @@ import pytest
 
 from ..operations import on
 
-pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+pytestmark = pytest.mark.both_hosts(
+    "each has its own code for the serial line", once_for=("machine",)
+)
 
 TOOLED = on("one tool 2.05", "one tool 3.3", "one tool 3.5.3", "one tool 3.6")
 CHANGERS = on("changer 2.05", "changer 3.3", "changer 3.5.3", "changer 3.6")

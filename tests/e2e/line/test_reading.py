@@ -7,7 +7,7 @@ import pytest
 from tests.support.basedir import OPERATOR, READER
 
 from ..printer_bench import Bench
-from ..printer_requests import HOME, JOG, OFFSET, SCRIPT, TARGET, By, name_of, rows
+from ..printer_requests import HOME, JOG, MALFORMED, OFFSET, SCRIPT, TARGET, By, name_of, rows
 
 pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
 
@@ -28,6 +28,14 @@ def test_request(bench, octoprint_version, state, path, body, status, wire):
     bench.enter(state)
     found = bench.post(path, body)
     assert found == (By.version(status, octoprint_version), By.version(wire, octoprint_version))
+
+
+@pytest.mark.parametrize("path", MALFORMED)
+def test_malformed(bench, path):
+    bench.enter("operational")
+    statuses, wire = bench.post_all(path, MALFORMED[path])
+    assert statuses == {str(body): 400 for body in MALFORMED[path]}
+    assert wire == []
 
 
 # who may not is told so first, whatever is wrong with the request
@@ -127,6 +135,7 @@ def subsets():
         yield from map(",".join, itertools.combinations(parts, count))
 
 
+@pytest.mark.both_hosts("each has its own code for the serial line", once_for=("exclude",))
 @pytest.mark.parametrize("exclude", subsets())
 def test_parts_can_be_left_out(bench, exclude):
     bench.enter("operational")
@@ -136,12 +145,14 @@ def test_parts_can_be_left_out(bench, exclude):
     assert set(answer.json()) == {"temperature", "sd", "state"} - left_out
 
 
+@pytest.mark.both_hosts("each has its own code for the serial line", once_for=("yes",))
 @pytest.mark.parametrize("yes", ["true", "yes", "y", "1"])
 def test_history_is_told_to_who_wants_it(bench, yes):
     bench.enter("operational")
     assert len(bench.get("/tool", history=yes).json()["history"]) > 5
 
 
+@pytest.mark.both_hosts("each has its own code for the serial line", once_for=("no",))
 @pytest.mark.parametrize("no", ["false", "no", "n", "0", ""])
 def test_history_is_not_told_to_others(bench, no):
     bench.enter("operational")

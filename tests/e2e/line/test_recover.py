@@ -1,26 +1,43 @@
 """Going on after an emergency stop: the restart is offered, and OctoPrint connects again."""
 
 import time
+from pathlib import Path
 
 import pytest
 
+from tests.support import plugins
 from tests.support.basedir import ADMIN, OPERATOR, READER
 from tests.support.push import PushListener
+from tests.support.waiting import within
 
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("each has its own code for the serial line"),
+    pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
     pytest.mark.slow,
     pytest.mark.timeout(240),
 ]
 
 RECOVER_SECONDS = 40
+TIMES = Path(plugins.__file__).with_name("recovery_times.py")
 
 
 @pytest.fixture(scope="module")
 def server(module_server_factory):
-    return module_server_factory()
+    return module_server_factory(plugin_files=(TIMES,))
+
+
+@pytest.fixture
+def times(server):
+    """Function that gives the restart other times until the test is over."""
+
+    def give(**seconds):
+        request = {"command": "set", **seconds}
+        response = server.post("/api/plugin/recovery_times", json=request)
+        assert response.status_code == 204, response.text
+
+    yield give
+    give()
 
 
 @pytest.fixture(autouse=True)
@@ -66,7 +83,7 @@ def test_after_octoprints_emergency_stop(server, board_factory, firmware):
     before = len(board.board.received())
     started = time.monotonic()
     assert recover(server).status_code == 204
-    assert time.monotonic() - started < 2
+    assert time.monotonic() - started < within(2)
     connected_again(server, board)
     assert "M999" in helpers.commands(board)[before:]
 
@@ -94,7 +111,9 @@ def test_connecting_to_a_halted_board(server, board_factory):
     assert warning["fix"] == "recover"
 
 
-def test_who_connects_to_another_board_meanwhile_stays_connected(server, board_factory):
+def test_who_connects_to_another_board_meanwhile_stays_connected(server, board_factory, times):
+    # time enough to be quicker than the restart
+    times(SENDING_SECONDS=20)
     board = board_factory()
     helpers.connect(server, board)
     board.board.inject("halted")
@@ -103,8 +122,10 @@ def test_who_connects_to_another_board_meanwhile_stays_connected(server, board_f
     helpers.disconnect(server)
     other = board_factory(machine="toolchanger")
     helpers.connect(server, other)
-    # longer than the restart waits for its line to leave
-    helpers.wait_polls(server, 4)
+    server.wait_for(
+        lambda: "Somebody has connected to another printer" in server.log(), 60, "the restart's end"
+    )
+    helpers.wait_polls(server, 2)
     assert server.state() == "Operational"
     helpers.wait_equal(server, other)
 
@@ -120,7 +141,8 @@ def test_a_port_that_stays(server, board_factory):
     connected_again(server, board)
 
 
-def test_board_that_does_not_come_back(server, board_factory, tmp_path):
+def test_board_that_does_not_come_back(server, board_factory, times):
+    times(RETURN_SECONDS=3)
     board = board_factory()
     helpers.connect(server, board)
     board.board.inject("halted")
@@ -131,7 +153,8 @@ def test_board_that_does_not_come_back(server, board_factory, tmp_path):
         assert recover(server).status_code == 204
         server.wait_disconnected()
         board.stop()
-        push.wait_for_plugin(lambda found: found.get("code") == "recover_failed", 160)
+        notice = push.wait_for_plugin(lambda found: found.get("code") == "recover_failed", 60)
+        assert notice["text"].endswith(".")
 
 
 def test_refused(server, board_factory):

@@ -4,7 +4,9 @@ import pytest
 
 from .. import helpers
 
-pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+pytestmark = pytest.mark.both_hosts(
+    "each has its own code for the serial line", once_for=("machine", "firmware")
+)
 
 PORT = "RRF-SIM"
 

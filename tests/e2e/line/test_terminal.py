@@ -23,12 +23,13 @@ def server(module_server_factory, module_board_factory):
 
 
 def lines_of(push):
-    """Return the lines of the terminal that were pushed, with the history of the first message."""
+    """Return the lines of this connection that were pushed, those of the first message too."""
     lines = []
     for kind, payload in list(push.messages):
         if kind in ("current", "history"):
             lines += payload.get("logs") or []
-    return lines
+    begun = [place for place, line in enumerate(lines) if 'to "Connecting"' in line]
+    return lines[begun[-1] :] if begun else lines
 
 
 def has_shown(push, text):

@@ -15,7 +15,7 @@ pytestmark = [
     pytest.mark.timeout(300),
 ]
 
-LINES = 5000
+LINES = 2500
 PRINT_SECONDS = 150
 
 # so that OctoPrint soon finds out that an ok was lost
@@ -94,7 +94,7 @@ def print_through(server, board, lines, name):
         pytest.param(None, id="clean"),
         pytest.param("extra_ok", id="extra_ok"),
         # one of so many replies: a stall of two seconds each
-        pytest.param("lost_ok:1201", id="lost_ok"),
+        pytest.param("lost_ok:601", id="lost_ok"),
     ],
 )
 def test_print(server, board_factory, fault):

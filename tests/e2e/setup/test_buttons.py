@@ -9,6 +9,7 @@ from octoprint_rrfmodel.rrf.gcode.unsendable import ROWS as UNSENDABLE
 from octoprint_rrfmodel.rrf.views.warnings import GUARDS
 from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
+from tests.support.waiting import within
 
 from .. import helpers
 
@@ -55,12 +56,12 @@ def test_each_row_has_a_switch_that_is_on(server, group):
 
 def test_settings(server, board, page, page_errors):
     open_octoprint(page, server, ADMIN)
-    page.locator("[data-test=advice]").first.wait_for(timeout=30_000)
+    page.locator("[data-test=advice]").first.wait_for(timeout=within(30_000))
     assert page.locator("[data-test=advice]").count() == len(warnings(server))
     # advice pops up nowhere
     assert page.locator(".ui-pnotify-text", has_text="upper case").count() == 0
     page.locator("[data-test=fix]").click()
-    page.locator("[data-test=advice]").first.wait_for(state="detached", timeout=15_000)
+    page.locator("[data-test=advice]").first.wait_for(state="detached", timeout=within(15_000))
     assert warnings(server) == []
     assert page_errors == []
     server.post("/api/plugin/rrfmodel", json={"command": "restore_settings"})
@@ -68,7 +69,7 @@ def test_settings(server, board, page, page_errors):
 
 def test_only_for_those_who_may(server, board, page):
     open_octoprint(page, server, OPERATOR)
-    page.locator("[data-test=advice]").first.wait_for(timeout=30_000)
+    page.locator("[data-test=advice]").first.wait_for(timeout=within(30_000))
     assert page.locator("[data-test=fix]").count() == 0
 
 
@@ -77,7 +78,7 @@ def test_restart(server, board, page, button):
     open_octoprint(page, server, OPERATOR)
     server.post("/api/printer/command", json={"command": "M112"})
     server.wait_disconnected()
-    page.locator(button).click(timeout=20_000)
+    page.locator(button).click(timeout=within(20_000))
     server.wait_for(lambda: not board.board.is_halted, 20, "the restart")
     server.wait_state("Operational", 30)
-    expect(page.locator("[data-test=warning]")).to_have_count(0, timeout=20_000)
+    expect(page.locator("[data-test=warning]")).to_have_count(0, timeout=within(20_000))

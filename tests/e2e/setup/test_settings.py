@@ -8,7 +8,9 @@ from tests.support.basedir import ADMIN, DISABLED_PLUGINS, OPERATOR, is_version_
 from .. import helpers
 
 pytestmark = [
-    pytest.mark.both_hosts("settings of the serial line lie in different places"),
+    pytest.mark.both_hosts(
+        "settings of the serial line lie in different places", once_for=("machine",)
+    ),
     pytest.mark.slow,
     pytest.mark.timeout(240),
 ]

@@ -5,7 +5,8 @@ import pytest
 from .. import helpers
 from ..operations import PROFILE, Machine
 
-FIRMWARE = ("2.05", "3.3", "3.4", "3.5.3", "3.6")
+# the lines for those between are proven without a server, tests/rrf/gcode/test_commands_lines.py
+FIRMWARE = ("2.05", "3.6")
 HOT_SECONDS = 120
 
 
@@ -233,6 +234,7 @@ def test_command(machine, name, parameters, lines, old_lines, is_done):
     assert machine.usb["stackDepth"] == 0
 
 
+@pytest.mark.both_hosts("lines go through the queue of the host", once_for=("machine",))
 def test_extruding(machine):
     before = machine.board.model["move"]["extruders"][0]["rawPosition"]
     machine.command("extrude", ["M120 M83 G1 E2 F300 M121"], amounts=2, speed=300)

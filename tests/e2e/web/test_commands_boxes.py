@@ -39,7 +39,7 @@ def server(module_server_factory):
     return module_server_factory(profile=PROFILE)
 
 
-@pytest.fixture(scope="module", params=["2.05", "3.3", "3.4", "3.5.3", "3.6"])
+@pytest.fixture(scope="module", params=["2.05", "3.4", "3.6"])
 def machine(request, server, module_board_factory):
     board = module_board_factory(firmware=request.param, speed=5)
     helpers.connect(server, board)
@@ -69,6 +69,10 @@ def answered(machine, gcode, answer, line):
     return machine.board.boxes.answers[-1]
 
 
+@pytest.mark.both_hosts(
+    "lines go through the queue of the host",
+    once_for=("machine", "gcode", "answer", "line", "result"),
+)
 @pytest.mark.parametrize("gcode, answer, line, result", OLD_BOXES, ids=lambda value: str(value))
 def test_box_of_any_firmware(machine, gcode, answer, line, result):
     assert answered(machine, gcode, answer, line) == result
@@ -131,6 +135,7 @@ def test_answers_that_do_not_fit(machine):
     helpers.wait_value(machine.server, "state.messageBox", None, 10)
 
 
+@pytest.mark.both_hosts("each has its own code for the card")
 def test_a_box_of_the_boards_own_print(server, board_factory):
     """The print waits; the answer goes between OctoPrint's own questions about it."""
     board = board_factory(speed=5)

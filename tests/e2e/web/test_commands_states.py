@@ -110,6 +110,7 @@ def streaming(ready, server):
     return machine
 
 
+@pytest.mark.both_hosts("each streams and pauses with its own code")
 def test_while_octoprint_prints(streaming, server):
     for name in NOT_WHILE_PRINTING:
         assert_forbidden(ask(server, name))
@@ -123,6 +124,7 @@ def test_while_octoprint_prints(streaming, server):
     assert helpers.polls_without_status(helpers.commands_of(streaming.board)) == []
 
 
+@pytest.mark.both_hosts("each streams and pauses with its own code")
 def test_while_octoprints_print_is_paused(streaming, server):
     server.post("/api/job", json={"command": "pause", "action": "pause"})
     server.wait_state("Paused", 20)
@@ -171,7 +173,8 @@ def test_while_the_boards_print_is_paused(ready, server):
         assert ask(server, name).status_code == 204, name
 
 
-@pytest.mark.parametrize("firmware", ["3.3", "3.5.3", "3.6"])
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@pytest.mark.parametrize("firmware", ["3.6", "3.3"])
 def test_job_from_its_beginning_to_its_end(ready, server, firmware):
     machine = ready(speed=20.0, firmware=firmware)
     start(machine)
@@ -257,6 +260,7 @@ def test_disconnected(server):
     assert server.post(COMMAND, json={"command": "refresh"}).status_code == 204
 
 
+@pytest.mark.both_hosts("each connects with its own code")
 def test_halted(ready, server):
     machine = ready()
     machine.board.inject("halted")
@@ -271,6 +275,7 @@ def test_halted(ready, server):
     helpers.wait_ready(server, 40)
 
 
+@pytest.mark.both_hosts("each has its own code for the serial line")
 def test_another_firmware(server_factory):
     other = server_factory(plugins_config={"virtual_printer": {"enabled": True}})
     other.connect("VIRTUAL")

@@ -52,6 +52,7 @@ def test_there_are_examples():
     assert len(CURLS) >= 8
 
 
+@pytest.mark.both_hosts("the endpoints are there")
 def test_program(server, tmp_path):
     (text,) = PYTHON.findall((ROOT / "docs" / "websocket.md").read_text(encoding="utf-8"))
     port = server.url.rsplit(":", 1)[1]

@@ -11,6 +11,8 @@ LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 100))
 """A print of three layers: seconds on the board's clock, which is twenty times as fast."""
 
 
+# what was connected before would be in the history
+SERVER = {"own": True}
 BOARD = {"machine": "cartesian", "speed": 20}
 
 
@@ -24,6 +26,7 @@ def values(told, name):
     return next((each["values"] for each in told["series"] if each["id"] == name), [])
 
 
+@pytest.mark.both_hosts("the endpoint is there")
 def test_samples_of_heaters(server, board):
     board.board.execute("M568 P0 S185 R90 A1", channel="http")
     server.wait_for(lambda: 90.0 in values(history(server), "heater1.target"), 20, "a sample")
@@ -44,6 +47,7 @@ def test_only_what_is_new(server):
     assert len(told["times"]) < len(history(server)["times"])
 
 
+@pytest.mark.both_hosts("the endpoint is there", once_for=("since",))
 @pytest.mark.parametrize("since", ["", "yesterday", "nan", "1,5"])
 def test_malformed(server, since):
     response = server.get(PATH, params={"since": since})

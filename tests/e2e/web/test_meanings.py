@@ -16,6 +16,7 @@ def test_each_path_has_unit_and_text(server):
     assert len(rows) > 400
 
 
+@pytest.mark.both_hosts("each finds out the language by itself")
 @pytest.mark.parametrize(
     "options",
     [{"headers": {"X-Locale": "de"}}, {"params": {"l10n": "de"}}],

@@ -34,6 +34,7 @@ def assert_failure(response, status):
 # forms
 
 
+@pytest.mark.both_hosts("the endpoints are there", once_for=("query", "wanted"))
 @pytest.mark.parametrize(
     "query, wanted",
     [
@@ -109,6 +110,7 @@ def test_script_is_refused_as_a_whole(server, board, body):
     assert not [line for line in board.board.received()[before:] if "M117" in line]
 
 
+@pytest.mark.both_hosts("lines go through the queue of the host")
 def test_script_by_address_and_by_body(server, board):
     before = len(board.board.received())
     address = f"{BASE}/printer/gcode/script"
@@ -133,6 +135,7 @@ def test_without_a_printer(server_factory):
 # the job
 
 
+@pytest.mark.both_hosts("each streams and pauses with its own code")
 @pytest.mark.slow
 def test_a_print_of_octoprints_is_the_job(server, board):
     def queried():
@@ -217,6 +220,7 @@ def test_moonrakerpy_through_a_proxy(server, board, monkeypatch):
         assert "M117 moonrakerpy" in printer.get_gcode(20, msg_type="command")
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_moonrakerpy_as_a_guest(server, monkeypatch):
     monkeypatch.setenv("NO_PROXY", "127.0.0.1")
     with pytest.raises(KeyError):

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import time
 from urllib.parse import urlsplit
 
 import aiohttp
@@ -107,6 +108,7 @@ def session_cookie(server, user):
         return "; ".join(f"{cookie.name}={cookie.value}" for cookie in client.cookies)
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 @pytest.mark.parametrize("user", [ADMIN, OPERATOR, READER], ids=lambda user: user.name)
 def test_lets_in_who_has_the_permission(server, user):
     assert status_of_handshake(server, user) == 101
@@ -115,6 +117,7 @@ def test_lets_in_who_has_the_permission(server, user):
     assert status_of_handshake(server, cookie=cookie, origin=server.url) == 101
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 @pytest.mark.parametrize(
     "options",
     [
@@ -129,6 +132,7 @@ def test_refuses_who_shows_nothing(server, options):
     assert status_of_handshake(server, **options) == 403
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_refuses_a_session_on_another_page(server):
     cookie = session_cookie(server, ADMIN)
     assert status_of_handshake(server, cookie=cookie, origin="http://evil.example") == 403
@@ -136,6 +140,7 @@ def test_refuses_a_session_on_another_page(server):
     assert status_of_handshake(server, ADMIN, origin="http://dashboard.example") == 101
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_refuses_an_unknown_key_in_spite_of_a_session(server):
     cookie = session_cookie(server, ADMIN)
     found = status_of_handshake(server, query="?apikey=nonsense", cookie=cookie, origin=server.url)
@@ -189,14 +194,17 @@ def test_refuses_what_it_can_not_read(socket, board, method, params, code):
     assert not [line for line in board.board.received()[before:] if "M117" in line]
 
 
+@pytest.mark.both_hosts("lines go through the queue of the host")
 def test_script_goes_to_the_printer(socket, board, server):
     before = len(board.board.received())
+    started = time.time()
     assert socket.result("printer.gcode.script", script="M117 over the socket\nM115") == "ok"
     server.wait_for(lambda: "M115" in helpers.commands(board)[before:], 10, "the script")
     assert "M117 over the socket" in helpers.commands(board)[before:]
     (line,) = socket.wait_for("notify_gcode_response", lambda found: "FIRMWARE_NAME" in found[0])
     assert "RepRapFirmware" in line
     store = server.get("/plugin/rrfmodel/server/gcode_store").json()["result"]["gcode_store"]
+    store = [entry for entry in store if entry["time"] >= started]
     assert {"M117 over the socket", "M115"} <= {
         entry["message"] for entry in store if entry["type"] == "command"
     }
@@ -205,6 +213,7 @@ def test_script_goes_to_the_printer(socket, board, server):
     assert not [entry for entry in store if '{"key"' in entry["message"]]
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_reader_may_not_control(server, board):
     before = len(board.board.received())
     with Socket(server, READER) as socket:
@@ -279,6 +288,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
 def test_drops_who_may_read_no_longer(server, somebody, change):
     with Socket(server, None, f"?apikey={somebody}") as socket:
@@ -289,6 +299,7 @@ def test_drops_who_may_read_no_longer(server, somebody, change):
                 socket.receive()
 
 
+@pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_drops_a_session_that_logs_out(server):
     with server.session(OPERATOR) as client:
         cookie = "; ".join(f"{found.name}={found.value}" for found in client.cookies)
@@ -317,6 +328,7 @@ class Listener(MoonrakerListener):
             await self.updates.put(data)
 
 
+@pytest.mark.both_hosts("the sockets are there")
 def test_moonraker_api_subscribes(server):
     async def run():
         listener = Listener()
