@@ -183,19 +183,9 @@ def browser():
 @pytest.fixture
 def page(browser, page_errors):
     """A page with cookies of its own; what goes wrong in it lands in ``page_errors``."""
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    page = context.new_page()
-    page.on("pageerror", lambda error: page_errors.append(error.stack or str(error)))
-    page.on(
-        "console",
-        lambda message: message.type == "error" and page_errors.append(_with_place(message)),
-    )
-    yield page
+    context = browser.new_context(viewport=chromium.SIZE)
+    yield chromium.new_page(context, page_errors)
     context.close()
-
-
-def _with_place(message):
-    return f"{message.text} ({message.location.get('url')})"
 
 
 @pytest.fixture

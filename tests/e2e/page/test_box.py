@@ -5,30 +5,30 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.basedir import ADMIN, READER
+from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import board_value, own_errors, part, wait_text
+from . import board_value, both_hosts, own_errors, part, wait_board, wait_text
 
 pytestmark = pytest.mark.timeout(240)
 
 MARKUP = "<img src=x onerror=alert(1)>"
 
 
-BOARD = {"machine": "cartesian"}
+BOARD = {"machine": "cartesian", "speed": 10}
 
 
 @pytest.fixture(autouse=True)
 def _no_box(board):
     yield
+    board.board.speed = BOARD["speed"]
     while board_value(board, "state.messageBox") is not None:
         board.board.execute("M292 P1", channel="telnet")
 
 
 @pytest.fixture
-def box(page, server):
-    open_octoprint(page, server, ADMIN)
+def box(page):
     return page.locator("#rrfmodel_box_dialog")
 
 
@@ -44,6 +44,7 @@ def is_closed(server, board, box):
     return True
 
 
+@both_hosts
 @pytest.mark.parametrize("mode", [1, 2, 3])
 def test_is_shown_and_closed(box, server, board, page_errors, mode):
     ask(board, f'P"Is it {mode}?" R"Title" S{mode} T0')
@@ -56,11 +57,13 @@ def test_is_shown_and_closed(box, server, board, page_errors, mode):
 
 
 def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
-    ask(board, 'P"Wait" S0 T20')
+    ask(board, 'P"Wait" S0 T300')
     wait_text(part(box, "box-message"), "Wait")
     expect(part(box, "box-time")).to_have_text(re.compile(r"^Closes by itself in \d+ s$"))
     expect(box.locator("button:visible")).to_have_text(["Put aside"])
-    assert 1 <= int(re.findall(r"\d+", part(box, "box-time").inner_text())[0]) <= 20
+    assert 1 <= int(re.findall(r"\d+", part(box, "box-time").inner_text())[0]) <= 300
+    # its time is nearly over at once
+    board.board.speed = 300
     expect(box).to_be_hidden(timeout=40_000)
     assert is_closed(server, board, box)
 
@@ -116,7 +119,8 @@ def test_answer_locks_until_there_is_news(page, box, server, board):
     assert board_value(board, "state.messageBox.message") == "Second"
 
 
-def test_the_reply_about_one_box_does_not_unlock_the_next(page, server, board):
+def test_the_reply_about_one_box_does_not_unlock_the_next(fresh_page, server, board):
+    page = fresh_page
     page.clock.install()
     open_octoprint(page, server, ADMIN)
     box = page.locator("#rrfmodel_box_dialog")
@@ -182,6 +186,7 @@ def test_what_can_not_be_cancelled_stays(page, box, server, board):
     assert board_value(board, "state.messageBox.mode") == 2
 
 
+@both_hosts
 def test_choices(box, server, board):
     ask(board, 'P"Which?" S4 K{"one", "two", "three"} F1')
     wait_text(part(box, "box-message"), "Which?")
@@ -248,18 +253,15 @@ def test_axes_are_moved(box, server, board):
     wait_text(part(box, "box-axis"), "Z")
     before = board_value(board, "move.axes[2].machinePosition")
     box.get_by_label("Move Z by 1 mm").click()
-    server.wait_for(
-        lambda: abs(board_value(board, "move.axes[2].machinePosition") - before - 1) < 0.01,
-        15,
-        "the move",
+    wait_board(
+        server, board, "move.axes[2].machinePosition", lambda now: abs(now - before - 1) < 0.01
     )
     part(box, "box-ok").click()
     assert is_closed(server, board, box)
 
 
-def test_who_may_not_control_sees_and_can_not_answer(page, server, board):
-    open_octoprint(page, server, READER)
-    box = page.locator("#rrfmodel_box_dialog")
+def test_who_may_not_control_sees_and_can_not_answer(reader_page, board):
+    box = reader_page.locator("#rrfmodel_box_dialog")
     ask(board, 'P"Look" S5 L1 H9')
     wait_text(part(box, "box-message"), "Look")
     wait_text(part(box, "box-readonly"), "not answer")

@@ -5,10 +5,20 @@ import base64
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.basedir import ADMIN, READER
+from tests.support.basedir import ADMIN
 
 from .. import helpers
-from . import open_view, own_errors, part, wait_board, wait_text
+from . import (
+    CONFIRM,
+    both_hosts,
+    open_view,
+    own_errors,
+    part,
+    show_view,
+    styled,
+    wait_board,
+    wait_text,
+)
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -83,13 +93,14 @@ def begin(server, board, path="0:/gcodes/parts/clip.gcode"):
 @pytest.fixture
 def view(page, server, idle):
     begin(server, idle)
-    return open_view(page, server, ADMIN, "job")
+    return show_view(page, "job")
 
 
 def confirm(page):
-    page.locator(".modal.in .modal-footer .btn-danger").click()
+    page.locator(CONFIRM).click()
 
 
+@both_hosts
 def test_tells_of_file_progress_and_times(view, server):
     expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=15_000)
     wait_text(part(view, "status"), "Printing")
@@ -107,7 +118,10 @@ def test_tells_of_file_progress_and_times(view, server):
     wait_text(part(view, "percent"), "%")
 
 
-def test_layers_as_a_chart(page, view):
+def test_layers_as_a_chart(own_page, server, idle):
+    page = own_page
+    begin(server, idle)
+    view = open_view(page, server, ADMIN, "job")
     part(view, "layers").wait_for(state="visible", timeout=30_000)
     drawn = """() => $("#rrfmodel_job .rrfmodel-plot").data("plot").getData()[0].data"""
     page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=30_000)
@@ -133,6 +147,7 @@ def test_layers_as_a_chart(page, view):
     page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=30_000)
 
 
+@both_hosts
 def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     expect(part(view, "resume")).to_be_disabled()
     part(view, "pause").click()
@@ -185,7 +200,7 @@ def test_objects(page, view, server, board):
 def test_last_job_is_started_again_and_simulated(page, server, idle):
     begin(server, idle)
     end_job(server, idle)
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "last-file"), "parts/clip.gcode")
     wait_text(part(view, "last-duration"), "0:00:")
     part(view, "start-last").click()
@@ -200,7 +215,7 @@ def test_last_job_is_started_again_and_simulated(page, server, idle):
 
 def test_nothing_is_started_without_the_motors_supply(page, server, idle):
     idle.board.execute('M23 "parts/clip.gcode"', channel="http")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     expect(part(view, "start")).to_be_visible()
     idle.board.inject("vin_off")
     try:
@@ -212,7 +227,7 @@ def test_nothing_is_started_without_the_motors_supply(page, server, idle):
 
 def test_selected_file_is_started(page, server, idle):
     idle.board.execute('M23 "parts/clip.gcode"', channel="http")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "file"), "parts/clip.gcode")
     part(view, "start").click()
     confirm(page)
@@ -222,7 +237,7 @@ def test_selected_file_is_started(page, server, idle):
 
 def test_picture(page, server, idle, page_errors):
     begin(server, idle)
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     picture = part(view, "picture")
     expect(picture).to_be_visible(timeout=20_000)
     assert picture.evaluate("image => [image.naturalWidth, image.naturalHeight]") == [1, 1]
@@ -232,7 +247,7 @@ def test_picture(page, server, idle, page_errors):
 def test_file_without_a_picture(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/plain.gcode", "G4 S1\n" * 60)
     begin(server, idle, "0:/gcodes/plain.gcode")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "duration"), "0:")
     expect(part(view, "picture")).to_be_hidden()
     assert own_errors(page_errors) == []
@@ -241,7 +256,7 @@ def test_file_without_a_picture(page, server, idle, page_errors):
 def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=15_000)
     wait_text(part(view, "object").nth(0), MARKUP)
     assert view.locator("img:not([data-test=picture]), b").count() == 0
@@ -251,9 +266,9 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     assert own_errors(page_errors) == []
 
 
-def test_a_reader_sees_and_can_do_nothing(page, server, idle, page_errors):
+def test_a_reader_sees_and_can_do_nothing(reader_page, server, idle, page_errors):
     begin(server, idle)
-    view = open_view(page, server, READER, "job")
+    view = show_view(reader_page, "job")
     wait_text(part(view, "file"), "clip.gcode")
     for name in ("pause", "cancel"):
         expect(part(view, name)).to_be_disabled()
@@ -274,7 +289,8 @@ def test_a_refusal_is_told(page, view, server, board):
     )
 
 
-def test_a_picture_that_was_refused_is_asked_for_again(page, server, idle):
+def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle):
+    page = fresh_page
     begin(server, idle)
     page.clock.install()
     # the machine had no time for it
@@ -296,14 +312,14 @@ def test_a_picture_that_was_refused_is_asked_for_again(page, server, idle):
 
 def test_narrow(page, view):
     page.set_viewport_size({"width": 480, "height": 900})
-    page.add_style_tag(content="#rrfmodel_job { width: 440px; }")
-    part(view, "layers").wait_for(state="visible", timeout=30_000)
-    # the drawing follows the width a little later
-    page.wait_for_function(
-        """() => {
-            const region = document.querySelector("#rrfmodel_job");
-            return region.scrollWidth <= region.clientWidth;
-        }""",
-        timeout=10_000,
-    )
-    expect(part(view, "pause")).to_be_visible()
+    with styled(page, "#rrfmodel_job { width: 440px; }"):
+        part(view, "layers").wait_for(state="visible", timeout=30_000)
+        # the drawing follows the width a little later
+        page.wait_for_function(
+            """() => {
+                const region = document.querySelector("#rrfmodel_job");
+                return region.scrollWidth <= region.clientWidth;
+            }""",
+            timeout=10_000,
+        )
+        expect(part(view, "pause")).to_be_visible()

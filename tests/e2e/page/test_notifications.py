@@ -7,7 +7,7 @@ from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import own_errors, part
+from . import TOLD, both_hosts, own_errors, part
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -17,13 +17,12 @@ STREAMED = "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 1000
 
 
 @pytest.fixture
-def told(page, server, board):
+def told(page):
     """The texts of the notifications that are seen."""
-    open_octoprint(page, server, ADMIN)
-    part(page, "status").first.wait_for(timeout=15_000)
-    return page.locator(".ui-pnotify:visible .ui-pnotify-text")
+    return page.locator(TOLD)
 
 
+@both_hosts
 def test_why_a_print_is_paused_is_told_once(page, told, server, board, page_errors):
     server.upload("streamed.gcode", STREAMED)
     server.select_and_print("streamed.gcode")
@@ -59,12 +58,14 @@ def test_what_the_display_shows_is_one_notification(page, told, server, board):
     page.wait_for_function("(kept) => PNotify.notices.length <= kept", arg=kept)
 
 
-def test_a_refusal_comes_in_the_language_of_the_page(page, server, board):
+@both_hosts
+def test_a_refusal_comes_in_the_language_of_the_page(own_page, server):
+    page = own_page
     open_octoprint(page, server, ADMIN, "/?l10n=de")
     part(page, "status").first.wait_for(timeout=15_000)
     response = server.post("/api/printer/printhead", json={"command": "jog", "x": 5})
     assert response.status_code == 204
-    told = page.locator(".ui-pnotify:visible .ui-pnotify-text")
+    told = page.locator(TOLD)
     expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1, timeout=15_000)
 
 
