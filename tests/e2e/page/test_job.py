@@ -74,6 +74,8 @@ def idle(server, board):
 
 def end_job(server, board):
     if board.board.job.is_printing:
+        # it pauses between two layers
+        board.board.speed = 20
         if board.board.job.state != "paused":
             board.board.execute("M25", channel="http")
             # a short one may have ended meanwhile
@@ -81,6 +83,7 @@ def end_job(server, board):
             server.wait_for(lambda: job.state == "paused" or not job.is_printing, 20, "the pause")
         board.board.execute("M0", channel="http")
         server.wait_for(lambda: not board.board.job.is_printing, 20, "the end of the job")
+        board.board.speed = 1
 
 
 def begin(server, board, path="0:/gcodes/parts/clip.gcode"):
