@@ -134,10 +134,16 @@ def test_settings_page_that_is_open_when_the_machine_comes(own_page, server, boa
     assert own_errors(page_errors) == []
 
 
-@both_hosts
-def test_rows_of_the_sidebar_fold_away(own_page, server):
-    assert command(server, command="wizard_done").status_code == 204
+@pytest.fixture
+def without_axes(server):
     server.set_setting("plugins.rrfmodel.sidebar.axes", False)
+    yield
+    server.set_setting("plugins.rrfmodel.sidebar.axes", True)
+
+
+@both_hosts
+def test_rows_of_the_sidebar_fold_away(own_page, server, without_axes):
+    assert command(server, command="wizard_done").status_code == 204
     open_octoprint(own_page, server, ADMIN)
     sidebar = own_page.locator("[data-test=rrfmodel-sidebar]")
     part(sidebar, "heater").first.wait_for(timeout=15_000)
