@@ -171,7 +171,8 @@ def browser():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
     from playwright.sync_api import expect, sync_playwright
 
-    expect.set_options(timeout=waiting.PATIENCE * 10_000)
+    # who waits longer only loses time where the test fails anyway
+    expect.set_options(timeout=waiting.PATIENCE * 30_000)
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 from tests.support import waiting
 from tests.support.browser import open_octoprint
 
-SECONDS = 15
+SECONDS = 45
 
 both_hosts = pytest.mark.both_hosts("each has its own page, log-in, settings and bundles")
 
@@ -34,7 +34,7 @@ def show_view(page, view):
 
 def _seen(page, view):
     region = page.locator(f"#rrfmodel_{view}")
-    region.locator("visible=true").first.wait_for(timeout=30_000)
+    region.locator("visible=true").first.wait_for(timeout=45_000)
     return region
 
 

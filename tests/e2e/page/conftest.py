@@ -15,7 +15,7 @@ from tests.support import browser as chromium
 from tests.support.basedir import ADMIN, READER
 
 from .. import helpers
-from . import board_value, open_view
+from . import SECONDS, board_value, open_view
 from .rest import bring_to_rest
 from .wizard import FIELDS, PROFILE, command
 
@@ -49,8 +49,8 @@ def say_nothing(server, board):
     while board_value(board, "state.messageBox") is not None:
         board.board.execute("M292 P1", channel="telnet")
     # what is still in the model would be shown again
-    helpers.wait_value(server, "state.messageBox", None, 15)
-    helpers.wait_value(server, "state.displayMessage", "", 15)
+    helpers.wait_value(server, "state.messageBox", None, 45)
+    helpers.wait_value(server, "state.displayMessage", "", 45)
 
 
 @pytest.fixture(scope="session")
@@ -71,7 +71,7 @@ def board(request, module_board_factory):
 @pytest.fixture(scope="module")
 def server(shared_server, board):
     """The shared server, connected to the module's board."""
-    helpers.connect(shared_server, board)
+    helpers.connect(shared_server, board, SECONDS)
     yield shared_server
     helpers.disconnect(shared_server)
 
@@ -81,7 +81,7 @@ def unasked_server(shared_server, board):
     """The shared server as before anybody was asked what to set, with a machine that is ready."""
     profile = shared_server.get(PROFILE).json()
     shared_server.set_setting("plugins.rrfmodel.wizard_seen", False)
-    helpers.connect(shared_server, board)
+    helpers.connect(shared_server, board, SECONDS)
     yield shared_server
     # what a test has set is taken back by the plugin, what a person has by this
     command(shared_server, command="restore_settings")

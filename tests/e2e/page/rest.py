@@ -59,6 +59,6 @@ def bring_to_rest(page):
         return left == AT_REST
 
     try:
-        waiting.wait_for(is_at_rest, 30, "the page to be at rest")
+        waiting.wait_for(is_at_rest, 45, "the page to be at rest")
     except AssertionError as error:
         raise AssertionError(f"{error}; {left}") from None

@@ -16,13 +16,13 @@ pytestmark = pytest.mark.timeout(240)
 MARKUP = "<img src=x onerror=alert(1)>"
 
 
-BOARD = {"machine": "cartesian", "speed": 10}
+BOARD = {"machine": "cartesian"}
 
 
 @pytest.fixture(autouse=True)
 def _no_box(board):
     yield
-    board.board.speed = BOARD["speed"]
+    board.board.speed = 1
     while board_value(board, "state.messageBox") is not None:
         board.board.execute("M292 P1", channel="telnet")
 
@@ -37,9 +37,9 @@ def ask(board, parameters, channel="http"):
 
 
 def is_closed(server, board, box):
-    expect(box).to_be_hidden(timeout=15_000)
+    expect(box).to_be_hidden(timeout=45_000)
     server.wait_for(
-        lambda: board_value(board, "state.messageBox") is None, 10, "the board to close its box"
+        lambda: board_value(board, "state.messageBox") is None, 45, "the board to close its box"
     )
     return True
 
@@ -130,13 +130,13 @@ def test_the_reply_about_one_box_does_not_unlock_the_next(fresh_page, server, bo
     held = []
     page.route("**/api/plugin/rrfmodel", lambda route: held.append(route))
     part(box, "box-ok").click()
-    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the answer")
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 45, "the answer")
     first = held[0]
     reply = first.fetch()
     wait_text(part(box, "box-message"), "Second")
     # the next one is answered, then the reply about the first comes
     part(box, "box-ok").click()
-    server.wait_for(lambda: page.wait_for_timeout(20) or held[1:], 15, "the second answer")
+    server.wait_for(lambda: page.wait_for_timeout(20) or held[1:], 45, "the second answer")
     with page.expect_response("**/api/plugin/rrfmodel"):
         first.fulfill(response=reply)
     # the page knows of it, and of the time after which it would unlock
@@ -170,7 +170,7 @@ def test_put_aside_and_answered_elsewhere(page, box, server, board):
     wait_text(part(box, "box-message"), "Look at it")
     part(box, "box-aside").click()
     board.board.execute("M292", channel="telnet")
-    expect(page.locator("[data-test=box-again]")).to_be_hidden(timeout=15_000)
+    expect(page.locator("[data-test=box-again]")).to_be_hidden(timeout=45_000)
     # the next one comes by itself
     ask(board, 'P"Another" S2')
     wait_text(part(box, "box-message"), "Another")
@@ -247,8 +247,9 @@ def test_closes_when_answered_elsewhere_and_the_next_one_comes(box, server, boar
 
 
 def test_axes_are_moved(box, server, board):
+    board.board.speed = 10
     board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    helpers.wait_value(server, "move.axes[].homed", all, 45)
     ask(board, 'P"Jog" S2 Z1')
     wait_text(part(box, "box-axis"), "Z")
     before = board_value(board, "move.axes[2].machinePosition")

@@ -65,8 +65,8 @@ def drawn_view(page):
 
 def wait_drawn(page, fits):
     """Return what is drawn once it is as wanted."""
-    page.wait_for_function("() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')", timeout=30_000)
-    for _ in range(60):
+    page.wait_for_function("() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')", timeout=45_000)
+    for _ in range(180):
         drawn = page.evaluate(DRAWN)
         if fits(drawn):
             return drawn
@@ -77,7 +77,7 @@ def wait_drawn(page, fits):
 def wait_range(page, fits):
     """Return begin and end of the chart once they are as wanted."""
     # rows come every two seconds, and are asked for every two
-    for _ in range(200):
+    for _ in range(450):
         seen = page.evaluate(RANGE)
         if fits(*seen):
             return seen
@@ -135,7 +135,7 @@ def test_chosen_series_are_kept(own_page, server):
     wait_drawn(page, lambda drawn: len(drawn) == shown)
     page.reload()
     wait_usable(page)
-    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked(timeout=30_000)
+    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked(timeout=45_000)
     expect(part(row(view, "heater0"), "show-current")).not_to_be_checked()
     wait_drawn(page, lambda drawn: len(drawn) == shown)
 
@@ -194,7 +194,7 @@ def test_values_under_the_pointer(page, view):
     page.mouse.move(box["x"] + box["width"] * 0.8, box["y"] + 50)
     wait_text(part(view, "time"), ":")
     page.mouse.move(0, 0)
-    expect(part(view, "time")).to_contain_text("Latest", timeout=15_000)
+    expect(part(view, "time")).to_contain_text("Latest", timeout=45_000)
 
 
 def test_text_of_the_printer_is_text(view, board, page_errors):
@@ -236,6 +236,6 @@ def test_narrow(page, view):
                 const region = document.querySelector("#rrfmodel_chart");
                 return region.scrollWidth <= region.clientWidth;
             }""",
-            timeout=10_000,
+            timeout=45_000,
         )
         assert page.evaluate(WIDTH) < 440

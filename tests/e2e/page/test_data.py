@@ -7,7 +7,7 @@ from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import TOLD, both_hosts, own_errors, part
+from . import SECONDS, TOLD, both_hosts, own_errors, part
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -35,7 +35,7 @@ class Held:
         """Return once the server has answered such a request."""
         # the page's requests are seen while Playwright is at work
         self._server.wait_for(
-            lambda: self._page.wait_for_timeout(20) or self._answered, 30, "the request"
+            lambda: self._page.wait_for_timeout(20) or self._answered, 45, "the request"
         )
 
     def release(self):
@@ -51,7 +51,7 @@ def test_pushed_values_are_newer_than_the_model_that_comes_late(
     own_page, server, board, page_errors
 ):
     board.board.execute('M117 "old"', channel="http")
-    helpers.wait_value(server, "state.displayMessage", "old", 15)
+    helpers.wait_value(server, "state.displayMessage", "old", 45)
     held = Held(own_page, "**/plugin/rrfmodel/model?*", server)
     open_octoprint(own_page, server, ADMIN)
     held.wait()
@@ -73,7 +73,7 @@ def test_a_late_state_does_not_take_the_machine_away(own_page, server, board, pa
     held = Held(page, "**/plugin/rrfmodel/status", server)
     open_octoprint(page, server, ADMIN)
     held.wait()
-    helpers.connect(server, board)
+    helpers.connect(server, board, SECONDS)
     expect(part(page, "axis")).to_have_count(3)
     held.release()
     helpers.wait_polls(server, 3)
@@ -130,7 +130,7 @@ def test_a_model_that_the_server_did_not_have_is_asked_for_again(fresh_page, ser
     open_octoprint(page, server, ADMIN)
     # the page sees the refusal a little later than this test does
     server.wait_for(
-        lambda: page.clock.fast_forward(6_000) or 200 in answers, 30, "the second question"
+        lambda: page.clock.fast_forward(6_000) or 200 in answers, 45, "the second question"
     )
     assert answers[0] == 503
     expect(part(page, "axis")).to_have_count(3)

@@ -24,7 +24,7 @@ def test_a_reader_can_not_stop_the_machine(reader_page, board):
 def test_restarts_the_machine(page, server, board):
     resets = helpers.status(server)["resets"]
     board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    helpers.wait_value(server, "move.axes[].homed", all, 45)
     told_before = server.log().count(CONNECTED_AGAIN)
     part(page, "restart").click()
     page.locator(CONFIRM).click()
@@ -51,7 +51,7 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     assert not board.board.is_halted
     stop.press("Enter")
     page.locator(CONFIRM).click()
-    server.wait_for(lambda: board.board.is_halted, 20, "the machine to be halted")
+    server.wait_for(lambda: board.board.is_halted, 45, "the machine to be halted")
     # the way back is offered
     fix = page.locator("[data-test=rrfmodel-sidebar] [data-test=fix]")
     fix.filter(has_text="Restart the machine").click(timeout=60_000)

@@ -8,7 +8,7 @@ from tests.support.basedir import ADMIN, READER
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import both_hosts, open_view, own_errors, part, show_view, styled
+from . import SECONDS, both_hosts, open_view, own_errors, part, show_view, styled
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -95,7 +95,7 @@ def test_480_pixels_are_enough(page, server, view):
     with styled(page, "#tab_plugin_rrfmodel { width: 440px; }"):
         # charts are drawn anew a little later
         server.wait_for(
-            lambda: not region.evaluate(TOO_WIDE), 15, "what is too wide to be narrower"
+            lambda: not region.evaluate(TOO_WIDE), 45, "what is too wide to be narrower"
         )
         # who touches needs room for a finger
         heights = region.locator("button:visible").evaluate_all(
@@ -152,7 +152,7 @@ def test_a_hidden_tab_costs_nothing(page, server, board):
             {subtree: true, childList: true, attributes: true, characterData: true});
     }""")
     board.board.execute("M568 P0 S77 A2", channel="http")
-    helpers.wait_value(server, "heat.heaters[1].active", 77, 15)
+    helpers.wait_value(server, "heat.heaters[1].active", 77, 45)
     helpers.wait_polls(server, 4)
     assert page.evaluate("window.changes") == 0
     # and is up to date when it is shown again
@@ -166,7 +166,7 @@ def test_a_hidden_tab_costs_nothing(page, server, board):
 def no_machine(server, board):
     helpers.disconnect(server)
     yield
-    helpers.connect(server, board)
+    helpers.connect(server, board, SECONDS)
 
 
 @both_hosts

@@ -9,6 +9,7 @@ from tests.support.basedir import ADMIN
 
 from .. import helpers
 from . import (
+    SECONDS,
     board_value,
     open_view,
     own_errors,
@@ -73,7 +74,7 @@ def test_heaters_of_one_tool_are_the_machine_s_again(view, server, board):
     type_number(fields.nth(0), 61)
     wait_board(server, board, "tools[2].active[0]", 61)
     # somebody else sets it later, and that is known
-    helpers.wait_value(server, "tools[2].active[0]", 61, 15)
+    helpers.wait_value(server, "tools[2].active[0]", 61, 45)
     board.board.execute("M568 P2 S33:34", channel="http")
     expect(fields.nth(0)).to_have_value("33")
     helpers.wait_polls(server, 3)
@@ -97,9 +98,9 @@ def test_each_heater_of_a_tool_has_its_own_limits(view, server, board):
 def with_chamber(server, board, board_factory):
     """Another machine in the board's place, one with a chamber."""
     other = board_factory(machine="corexy", speed=20)
-    helpers.connect(server, other)
+    helpers.connect(server, other, SECONDS)
     yield other
-    helpers.connect(server, board)
+    helpers.connect(server, board, SECONDS)
 
 
 def test_a_chamber_is_switched_on_with_the_temperature_just_given(own_page, server, with_chamber):
@@ -127,7 +128,7 @@ def test_each_heater_of_a_tool_has_its_own_temperature(view, server, board):
     board.board.execute("M568 P2 S210:190 R150:140", channel="http")
     tool = part(view, "tool").nth(2)
     expect(part(tool, "active")).to_have_count(2)
-    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=15_000)
+    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=45_000)
     type_number(part(tool, "active").nth(0), 215)
     wait_board(server, board, "tools[2].active", [215, 190])
     type_number(part(tool, "standby").nth(1), 130)
@@ -135,7 +136,7 @@ def test_each_heater_of_a_tool_has_its_own_temperature(view, server, board):
     # one that is off doesn't keep the others from being set
     with board.board.lock:
         board.board.data["tools"][2]["active"] = [215, -273.1]
-    expect(part(tool, "active").nth(1)).to_have_value("", timeout=15_000)
+    expect(part(tool, "active").nth(1)).to_have_value("", timeout=45_000)
     type_number(part(tool, "active").nth(0), 220)
     wait_board(server, board, "tools[2].active", [220, 0])
     # a fault of any of them is the tool's

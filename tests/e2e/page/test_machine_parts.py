@@ -32,7 +32,7 @@ def test_what_there_is_to_see(view, board, page_errors):
     data = board.board.data
     endstops = [found for found in data["sensors"]["endstops"] if found]
     probes = [found for found in data["sensors"]["probes"] if found]
-    expect(part(view, "endstop")).to_have_count(len(endstops), timeout=15_000)
+    expect(part(view, "endstop")).to_have_count(len(endstops), timeout=45_000)
     expect(part(view, "probe")).to_have_count(len(probes))
     boards = part(view, "board")
     expect(boards).to_have_count(len(data["boards"]))
@@ -47,19 +47,19 @@ def test_what_there_is_to_see(view, board, page_errors):
 
 def test_mesh(view, server, board, page_errors):
     board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    helpers.wait_value(server, "move.axes[].homed", all, 45)
     part(view, "mesh-probe").click()
     wait_board(server, board, "move.compensation.type", "mesh", 60)
     wait_text(part(view, "mesh-type"), "mesh")
     part(view, "mesh-clear").click()
-    wait_board(server, board, "move.compensation.type", "none", 20)
+    wait_board(server, board, "move.compensation.type", "none", 45)
     sent_before = len(helpers.commands(board))
     part(view, "calibrate").click()
     server.wait_for(
-        lambda: "G32" in helpers.commands(board)[sent_before:], 20, "the bed to be levelled"
+        lambda: "G32" in helpers.commands(board)[sent_before:], 45, "the bed to be levelled"
     )
     part(view, "mesh-load").click()
-    wait_board(server, board, "move.compensation.type", "mesh", 20)
+    wait_board(server, board, "move.compensation.type", "mesh", 45)
     assert own_errors(page_errors) == []
 
 
@@ -71,10 +71,10 @@ def sent(server):
 def test_macros(page, view, server, board, page_errors):
     part(view, "macros").click()
     macros = part(view, "macro")
-    expect(macros).to_have_text(["<u>More", "Ask first", "Say hello"], timeout=15_000)
+    expect(macros).to_have_text(["<u>More", "Ask first", "Say hello"], timeout=45_000)
     macros.last.click()
     server.wait_for(
-        lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 10, "the macro to be run"
+        lambda: 'M98 P"0:/macros/Say hello"' in "\n".join(sent(server)), 45, "the macro to be run"
     )
     assert own_errors(page_errors) == []
 
@@ -87,7 +87,7 @@ def test_macros_in_a_folder(view, server, page_errors):
     expect(part(view, "macro")).to_have_count(1)
     part(view, "macro").click()
     run = 'M98 P"0:/macros/<u>More/Park.g"'
-    server.wait_for(lambda: run in "\n".join(sent(server)), 10, "the macro to be run")
+    server.wait_for(lambda: run in "\n".join(sent(server)), 45, "the macro to be run")
     part(view, "macro-up").click()
     expect(part(view, "macro")).to_have_count(3)
     assert own_errors(page_errors) == []
@@ -144,12 +144,12 @@ def test_monitor_that_reports_a_fault(view, board):
 
 def test_filaments(view, server, board):
     board.board.execute("T0", channel="http")
-    helpers.wait_value(server, "state.currentTool", 0, 20)
+    helpers.wait_value(server, "state.currentTool", 0, 45)
     part(view, "filaments").click()
     part(view, "load").first.wait_for()
     view.get_by_role("button", name="Load PLA").click()
-    wait_board(server, board, "move.extruders[0].filament", "PLA", 30)
-    helpers.wait_value(server, "move.extruders[0].filament", "PLA", 20)
+    wait_board(server, board, "move.extruders[0].filament", "PLA", 45)
+    helpers.wait_value(server, "move.extruders[0].filament", "PLA", 45)
     part(view, "unload").click()
     assert wait_board(server, board, "move.extruders[0].filament", "", 30) == ""
 
@@ -165,7 +165,7 @@ def test_power(page, view, server, board):
     wait_board(server, board, "state.atxPower", False)
     board.board.data["state"].update(atxPower=None, atxPowerPort=None)
     board.board.bump("state")
-    expect(part(view, "power")).to_be_hidden(timeout=15_000)
+    expect(part(view, "power")).to_be_hidden(timeout=45_000)
 
 
 def test_board_of_another_version(view, board):
@@ -177,7 +177,7 @@ def test_board_of_another_version(view, board):
         with board.board.lock:
             boards[count:] = [{**boards[0], "firmwareVersion": version, "canAddress": 20}]
             board.board.bump("boards")
-        expect(part(view, "board")).to_have_count(count + 1, timeout=20_000)
+        expect(part(view, "board")).to_have_count(count + 1, timeout=45_000)
         wait_text(part(view, "board").last, version)
 
     try:
@@ -190,7 +190,7 @@ def test_board_of_another_version(view, board):
         with board.board.lock:
             del boards[count:]
             board.board.bump("boards")
-    expect(part(view, "board")).to_have_count(count, timeout=20_000)
+    expect(part(view, "board")).to_have_count(count, timeout=45_000)
 
 
 def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):

@@ -7,7 +7,7 @@ from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import both_hosts, own_errors, part, wait_text
+from . import SECONDS, both_hosts, own_errors, part, wait_text
 from .wizard import PROFILE, SHOW, command, setup
 
 pytestmark = pytest.mark.timeout(240)
@@ -26,7 +26,7 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     assert helpers.status(server)["first_run"] is True
     open_octoprint(own_page, server, ADMIN)
     wizard = own_page.locator("#rrfmodel_wizard_dialog")
-    expect(wizard).to_be_visible(timeout=15_000)
+    expect(wizard).to_be_visible(timeout=45_000)
     expect(part(wizard, "needed")).to_have_count(4)
     part(wizard, "set-needed").click()
     wait_text(part(wizard, "needed-state").last, "as needed")
@@ -42,7 +42,7 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     assert after["volume"]["width"] == differences["volume.width"]
     part(wizard, "wizard-done").click()
     expect(wizard).to_be_hidden()
-    server.wait_for(lambda: not helpers.status(server)["first_run"], 15, "the end of the first run")
+    server.wait_for(lambda: not helpers.status(server)["first_run"], 45, "the end of the first run")
     assert own_errors(page_errors) == []
     # and all of it is taken back with the plugin
     assert command(server, command="restore_settings").status_code == 204
@@ -97,7 +97,7 @@ def test_settings_page(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=15_000)
+    part(pane, "needed").first.wait_for(timeout=45_000)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
     expect(part(pane, "difference")).to_have_count(len(setup(server)["profile"]))
@@ -111,7 +111,7 @@ def test_what_was_unticked_stays_so(own_page, server):
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
     ticks = pane.locator("[data-test=difference] input")
-    ticks.first.wait_for(timeout=15_000)
+    ticks.first.wait_for(timeout=45_000)
     ticks.first.uncheck()
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
@@ -125,12 +125,12 @@ def test_settings_page_that_is_open_when_the_machine_comes(own_page, server, boa
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=15_000)
+    part(pane, "needed").first.wait_for(timeout=45_000)
     expect(part(pane, "difference")).to_have_count(0)
-    helpers.connect(server, board)
-    expect(part(pane, "difference")).not_to_have_count(0, timeout=20_000)
+    helpers.connect(server, board, SECONDS)
+    expect(part(pane, "difference")).not_to_have_count(0, timeout=45_000)
     helpers.disconnect(server)
-    expect(part(pane, "difference")).to_have_count(0, timeout=20_000)
+    expect(part(pane, "difference")).to_have_count(0, timeout=45_000)
     assert own_errors(page_errors) == []
 
 
@@ -146,7 +146,7 @@ def test_rows_of_the_sidebar_fold_away(own_page, server, without_axes):
     assert command(server, command="wizard_done").status_code == 204
     open_octoprint(own_page, server, ADMIN)
     sidebar = own_page.locator("[data-test=rrfmodel-sidebar]")
-    part(sidebar, "heater").first.wait_for(timeout=15_000)
+    part(sidebar, "heater").first.wait_for(timeout=45_000)
     # the whole model is there
     expect(part(sidebar, "sidebar-fan")).not_to_have_count(0)
     expect(part(sidebar, "axis")).to_have_count(0)

@@ -28,13 +28,13 @@ def _as_it_was(board):
 
 def test_speed_and_direction(view, server, board):
     spindle = part(view, "spindle")
-    expect(spindle).to_have_count(1, timeout=15_000)
+    expect(spindle).to_have_count(1, timeout=45_000)
     type_number(part(spindle, "rpm"), 8000)
     wait_board(server, board, "spindles[0].active", 8000)
     wait_board(server, board, "spindles[0].state", "forward")
     # one that somebody else has turned round goes on as it turns
     board.board.execute("M4 P0 S500", channel="http")
-    expect(part(spindle, "reverse")).to_be_checked(timeout=15_000)
+    expect(part(spindle, "reverse")).to_be_checked(timeout=45_000)
     type_number(part(spindle, "rpm"), 700)
     wait_board(server, board, "spindles[0].active", 700)
     assert board_value(board, "spindles[0].state") == "reverse"
@@ -46,7 +46,7 @@ def test_speed_and_direction(view, server, board):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
-    expect(part(spindle, "reverse")).not_to_be_checked(timeout=15_000)
+    expect(part(spindle, "reverse")).not_to_be_checked(timeout=45_000)
     # and in the mode for it a laser is shown
     expect(part(view, "laser")).to_be_hidden()
     with board.board.lock:
@@ -67,7 +67,7 @@ def test_direction_that_is_chosen_before_the_last_speed_is_answered(page, view, 
     )
     type_number(part(spindle, "rpm"), 900)
     # what is held is seen while Playwright is at work
-    server.wait_for(lambda: page.wait_for_timeout(20) or held, 15, "the speed to be sent")
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 45, "the speed to be sent")
     wait_board(server, board, "spindles[0].state", "forward")
     reverse.check()
     route, answer = held[0]
