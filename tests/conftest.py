@@ -259,7 +259,8 @@ def browser():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
     from playwright.sync_api import expect, sync_playwright
 
-    expect.set_options(timeout=waiting.within(10_000))
+    # who waits longer only loses time where the test fails anyway
+    expect.set_options(timeout=waiting.within(30) * 1000)
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS
@@ -271,19 +272,9 @@ def browser():
 @pytest.fixture
 def page(browser, page_errors):
     """A page with cookies of its own; what goes wrong in it lands in ``page_errors``."""
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    page = context.new_page()
-    page.on("pageerror", lambda error: page_errors.append(error.stack or str(error)))
-    page.on(
-        "console",
-        lambda message: message.type == "error" and page_errors.append(_with_place(message)),
-    )
-    yield page
+    context = browser.new_context(viewport=chromium.SIZE)
+    yield chromium.new_page(context, page_errors)
     context.close()
-
-
-def _with_place(message):
-    return f"{message.text} ({message.location.get('url')})"
 
 
 @pytest.fixture

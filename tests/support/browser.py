@@ -23,21 +23,50 @@ FLAGS = [
     "--disable-sync",
 ]
 
+SIZE = {"width": 1280, "height": 900}
+
 # the first page builds OctoPrint's asset bundles
 PAGE_TIMEOUT_MS = 60_000
+
+
+def new_page(context: Any, errors: list[str]) -> Any:
+    """Return another page of the context; what goes wrong in it lands in ``errors``."""
+
+    def from_console(message: Any) -> None:
+        if message.type == "error":
+            errors.append(f"{message.text} ({message.location.get('url')})")
+
+    page = context.new_page()
+    page.on("pageerror", lambda error: errors.append(error.stack or str(error)))
+    page.on("console", from_console)
+    return page
 
 
 def open_octoprint(page: Any, server: OctoPrintServer, user: User | None, path: str = "/") -> None:
     """Show OctoPrint's page as that user and return once its interface is usable."""
     if user is not None:
-        # the login page hands out the CSRF token; requests and page share the cookies
-        page.request.get(f"{server.url}/login/")
-        cookies = {cookie["name"]: cookie["value"] for cookie in page.context.cookies()}
-        response = page.request.post(
-            f"{server.url}/api/login",
-            data={"user": user.name, "pass": user.password},
-            headers={"X-CSRF-Token": cookies[f"csrf_token_P{server.port}"]},
-        )
-        assert response.ok, response.text()
+        _log_in(page, server, user)
     page.goto(server.url + path, timeout=PAGE_TIMEOUT_MS)
+    wait_usable(page)
+
+
+def wait_usable(page: Any) -> None:
+    """Return once OctoPrint's interface has replaced what is seen while it loads."""
     page.locator("#page-container-loading").wait_for(state="hidden", timeout=PAGE_TIMEOUT_MS)
+
+
+def _log_in(page: Any, server: OctoPrintServer, user: User) -> None:
+    """Guarantee that the page's context is logged in as that user."""
+    current = page.request.get(f"{server.url}/api/currentuser")
+    # a context that stays may have been so before; checking a password is meant to be slow
+    if current.ok and current.json()["name"] == user.name:
+        return
+    # the login page hands out the CSRF token; requests and page share the cookies
+    page.request.get(f"{server.url}/login/")
+    cookies = {cookie["name"]: cookie["value"] for cookie in page.context.cookies()}
+    response = page.request.post(
+        f"{server.url}/api/login",
+        data={"user": user.name, "pass": user.password},
+        headers={"X-CSRF-Token": cookies[f"csrf_token_P{server.port}"]},
+    )
+    assert response.ok, response.text()

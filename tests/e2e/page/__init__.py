@@ -1,20 +1,40 @@
 """The plugin's tab in a real browser: opened as somebody, a sub-view at a time."""
 
+import contextlib
 import json
 
+import pytest
 from playwright.sync_api import expect
 
 from tests.support import waiting
 from tests.support.browser import open_octoprint
 
-SECONDS = 15
+SECONDS = 45
+
+both_hosts = pytest.mark.both_hosts("each has its own page, log-in, settings and bundles")
+
+CONFIRM = ".modal.in .modal-footer .btn-danger"
+"""The button of a question that goes on; OctoPrint's dialogs have links for buttons."""
+
+TOLD = ".ui-pnotify:visible .ui-pnotify-text"
+"""The texts of the notifications that are seen."""
 
 
 def open_view(page, server, user, view):
-    """Return the sub-view called so once it is shown to that user."""
+    """Return the sub-view called so once it is shown to that user, in a page that is loaded."""
     open_octoprint(page, server, user, f"/#tab_plugin_rrfmodel/{view}")
+    return _seen(page, view)
+
+
+def show_view(page, view):
+    """Return the sub-view called so once it is shown in a page that is open already."""
+    page.evaluate("(view) => { window.location.hash = '#tab_plugin_rrfmodel/' + view; }", view)
+    return _seen(page, view)
+
+
+def _seen(page, view):
     region = page.locator(f"#rrfmodel_{view}")
-    region.locator("visible=true").first.wait_for(timeout=30_000)
+    region.locator("visible=true").first.wait_for(timeout=45_000)
     return region
 
 
@@ -24,14 +44,25 @@ def part(region, name):
 
 
 def wait_text(locator, wanted, seconds=SECONDS):
-    """Return once the element's text has ``wanted`` in it."""
+    """Return the element's text once it has ``wanted`` in it."""
     expect(locator).to_contain_text(wanted, timeout=seconds * 1000)
+    return locator.inner_text()
 
 
 def type_number(field, number):
     """Type into a field that shows and sets a number, and confirm it."""
     field.fill(str(number))
     field.press("Enter")
+
+
+@contextlib.contextmanager
+def styled(page, css):
+    """Give the page a style sheet for a while."""
+    page.evaluate(
+        """(css) => $("<style class='of-a-test'>").text(css).appendTo(document.head)""", css
+    )
+    yield
+    page.evaluate("""() => $("style.of-a-test").remove()""")
 
 
 def board_value(board, key):

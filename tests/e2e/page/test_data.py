@@ -7,7 +7,7 @@ from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import own_errors, part
+from . import SECONDS, TOLD, both_hosts, own_errors, part
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -35,7 +35,7 @@ class Held:
         """Return once the server has answered such a request."""
         # the page's requests are seen while Playwright is at work
         self._server.wait_for(
-            lambda: self._page.wait_for_timeout(20) or self._answered, 30, "the request"
+            lambda: self._page.wait_for_timeout(20) or self._answered, 45, "the request"
         )
 
     def release(self):
@@ -46,42 +46,34 @@ class Held:
                 route.fulfill(response=response)
 
 
-@pytest.fixture
-def page_of(page, server):
-    open_octoprint(page, server, ADMIN)
-    return page
-
-
-def reload(page):
-    page.reload()
-    page.locator("#page-container-loading").wait_for(state="hidden", timeout=60_000)
-
-
+@both_hosts
 def test_pushed_values_are_newer_than_the_model_that_comes_late(
-    page_of, server, board, page_errors
+    own_page, server, board, page_errors
 ):
     board.board.execute('M117 "old"', channel="http")
-    helpers.wait_value(server, "state.displayMessage", "old", 15)
-    held = Held(page_of, "**/plugin/rrfmodel/model?*", server)
-    reload(page_of)
+    helpers.wait_value(server, "state.displayMessage", "old", 45)
+    held = Held(own_page, "**/plugin/rrfmodel/model?*", server)
+    open_octoprint(own_page, server, ADMIN)
     held.wait()
-    message = part(page_of, "message").first
+    message = part(own_page, "message").first
     board.board.execute('M117 "new"', channel="http")
     expect(message).to_have_text("new")
     # what has not changed since comes with the model alone
-    expect(part(page_of, "axis")).to_have_count(0)
+    expect(part(own_page, "axis")).to_have_count(0)
     held.release()
-    expect(part(page_of, "axis")).to_have_count(3)
+    expect(part(own_page, "axis")).to_have_count(3)
     expect(message).to_have_text("new")
     assert own_errors(page_errors) == []
 
 
-def test_a_late_state_does_not_take_the_machine_away(page, server, board, page_errors):
+@both_hosts
+def test_a_late_state_does_not_take_the_machine_away(own_page, server, board, page_errors):
+    page = own_page
     helpers.disconnect(server)
     held = Held(page, "**/plugin/rrfmodel/status", server)
     open_octoprint(page, server, ADMIN)
     held.wait()
-    helpers.connect(server, board)
+    helpers.connect(server, board, SECONDS)
     expect(part(page, "axis")).to_have_count(3)
     held.release()
     helpers.wait_polls(server, 3)
@@ -90,20 +82,22 @@ def test_a_late_state_does_not_take_the_machine_away(page, server, board, page_e
     assert own_errors(page_errors) == []
 
 
-def test_what_was_missed_while_the_socket_was_away_is_asked_for(page_of, page_errors):
-    expect(part(page_of, "axis")).to_have_count(3)
-    with page_of.expect_response("**/plugin/rrfmodel/model?*") as answered:
-        page_of.evaluate("OctoPrint.socket.socket.close(3000)")
+@both_hosts
+def test_what_was_missed_while_the_socket_was_away_is_asked_for(own_page, server, page_errors):
+    open_octoprint(own_page, server, ADMIN)
+    expect(part(own_page, "axis")).to_have_count(3)
+    with own_page.expect_response("**/plugin/rrfmodel/model?*") as answered:
+        own_page.evaluate("OctoPrint.socket.socket.close(3000)")
     assert answered.value.ok
-    expect(page_of.locator("#offline_overlay")).to_be_hidden()
-    expect(part(page_of, "axis")).to_have_count(3)
+    expect(own_page.locator("#offline_overlay")).to_be_hidden()
+    expect(part(own_page, "axis")).to_have_count(3)
     assert own_errors(page_errors) == []
 
 
-def test_messages_kept_until_somebody_logs_in_are_no_news(page_of, server, page_errors):
-    expect(part(page_of, "axis")).to_have_count(3)
-    notices = page_of.locator(".ui-pnotify:visible .ui-pnotify-text")
-    page_of.evaluate(
+def test_messages_kept_until_somebody_logs_in_are_no_news(page, page_errors):
+    expect(part(page, "axis")).to_have_count(3)
+    notices = page.locator(TOLD)
+    page.evaluate(
         """() => {
             const page = OctoPrint.coreui.viewmodels.rrfModelViewModel;
             const now = page.status();
@@ -116,11 +110,12 @@ def test_messages_kept_until_somebody_logs_in_are_no_news(page_of, server, page_
     )
     expect(notices.filter(has_text="A new notice.")).to_have_count(1)
     expect(notices.filter(has_text="An old notice.")).to_have_count(0)
-    expect(part(page_of, "axis")).to_have_count(3)
+    expect(part(page, "axis")).to_have_count(3)
     assert own_errors(page_errors) == []
 
 
-def test_a_model_that_the_server_did_not_have_is_asked_for_again(page, server, page_errors):
+def test_a_model_that_the_server_did_not_have_is_asked_for_again(fresh_page, server):
+    page = fresh_page
     page.clock.install()
     page.route(
         "**/plugin/rrfmodel/model?*",
@@ -135,7 +130,7 @@ def test_a_model_that_the_server_did_not_have_is_asked_for_again(page, server, p
     open_octoprint(page, server, ADMIN)
     # the page sees the refusal a little later than this test does
     server.wait_for(
-        lambda: page.clock.fast_forward(6_000) or 200 in answers, 30, "the second question"
+        lambda: page.clock.fast_forward(6_000) or 200 in answers, 45, "the second question"
     )
     assert answers[0] == 503
     expect(part(page, "axis")).to_have_count(3)

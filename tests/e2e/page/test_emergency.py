@@ -3,41 +3,42 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.basedir import ADMIN, READER
-
 from .. import helpers
-from . import open_view, part
+from . import CONFIRM, both_hosts, part
 
 pytestmark = pytest.mark.timeout(300)
 
-BOARD = {"machine": "cartesian"}
+BOARD = {"machine": "cartesian", "speed": 5}
+
+CONNECTED_AGAIN = "is connected again"
 
 STREAMED = "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 1000
 
 
-def test_a_reader_can_not_stop_the_machine(page, server, board):
-    open_view(page, server, READER, "machine")
-    expect(part(page, "emergency-stop")).to_be_disabled()
-    expect(part(page, "restart")).to_be_disabled()
+def test_a_reader_can_not_stop_the_machine(reader_page, board):
+    expect(part(reader_page, "emergency-stop")).to_be_disabled()
+    expect(part(reader_page, "restart")).to_be_disabled()
     assert not board.board.is_halted
 
 
 def test_restarts_the_machine(page, server, board):
-    open_view(page, server, ADMIN, "machine")
     resets = helpers.status(server)["resets"]
     board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    helpers.wait_value(server, "move.axes[].homed", all, 45)
+    told_before = server.log().count(CONNECTED_AGAIN)
     part(page, "restart").click()
-    page.locator(".modal.in .modal-footer .btn-danger").click()
-    server.wait_for(lambda: "is connected again" in server.log(), 120, "the end of the restart")
+    page.locator(CONFIRM).click()
+    server.wait_for(
+        lambda: server.log().count(CONNECTED_AGAIN) > told_before, 120, "the end of the restart"
+    )
     helpers.wait_ready(server, 90)
     # it is another start of the board
     assert not any(helpers.value(server, "move.axes[].homed"))
     assert helpers.status(server)["resets"] >= resets
 
 
+@both_hosts
 def test_stops_what_is_printed_and_comes_back(page, server, board):
-    open_view(page, server, ADMIN, "machine")
     server.upload("streamed.gcode", STREAMED)
     server.select_and_print("streamed.gcode")
     server.wait_state("Printing")
@@ -49,8 +50,8 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     helpers.wait_polls(server, 1)
     assert not board.board.is_halted
     stop.press("Enter")
-    page.locator(".modal.in .modal-footer .btn-danger").click()
-    server.wait_for(lambda: board.board.is_halted, 20, "the machine to be halted")
+    page.locator(CONFIRM).click()
+    server.wait_for(lambda: board.board.is_halted, 45, "the machine to be halted")
     # the way back is offered
     fix = page.locator("[data-test=rrfmodel-sidebar] [data-test=fix]")
     fix.filter(has_text="Restart the machine").click(timeout=60_000)

@@ -5,10 +5,20 @@ import base64
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.basedir import ADMIN, READER
+from tests.support.basedir import ADMIN
 
 from .. import helpers
-from . import open_view, own_errors, part, wait_board, wait_text
+from . import (
+    CONFIRM,
+    both_hosts,
+    open_view,
+    own_errors,
+    part,
+    show_view,
+    styled,
+    wait_board,
+    wait_text,
+)
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -64,34 +74,38 @@ def idle(server, board):
 
 def end_job(server, board):
     if board.board.job.is_printing:
+        # it pauses between two layers
+        board.board.speed = 20
         if board.board.job.state != "paused":
             board.board.execute("M25", channel="http")
             # a short one may have ended meanwhile
             job = board.board.job
-            server.wait_for(lambda: job.state == "paused" or not job.is_printing, 20, "the pause")
+            server.wait_for(lambda: job.state == "paused" or not job.is_printing, 45, "the pause")
         board.board.execute("M0", channel="http")
-        server.wait_for(lambda: not board.board.job.is_printing, 20, "the end of the job")
+        server.wait_for(lambda: not board.board.job.is_printing, 45, "the end of the job")
+        board.board.speed = 1
 
 
 def begin(server, board, path="0:/gcodes/parts/clip.gcode"):
     board.board.execute(f'M32 "{path}"', channel="http")
     server.wait_for(
-        lambda: helpers.value(server, "job.file.fileName") == path, 20, "the job in the model"
+        lambda: helpers.value(server, "job.file.fileName") == path, 45, "the job in the model"
     )
 
 
 @pytest.fixture
 def view(page, server, idle):
     begin(server, idle)
-    return open_view(page, server, ADMIN, "job")
+    return show_view(page, "job")
 
 
 def confirm(page):
-    page.locator(".modal.in .modal-footer .btn-danger").click()
+    page.locator(CONFIRM).click()
 
 
+@both_hosts
 def test_tells_of_file_progress_and_times(view, server):
-    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=15_000)
+    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=45_000)
     wait_text(part(view, "status"), "Printing")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     wait_text(part(view, "filament"), "1.50 m + 0.25 m")
@@ -102,15 +116,18 @@ def test_tells_of_file_progress_and_times(view, server):
     for name in ("left-file", "left-slicer", "left-simulation", "duration", "warmUp", "paused"):
         wait_text(part(view, name), "0:0")
     before = part(view, "duration").inner_text()
-    expect(part(view, "duration")).not_to_have_text(before, timeout=15_000)
+    expect(part(view, "duration")).not_to_have_text(before, timeout=45_000)
     assert float(part(view, "progress").get_attribute("aria-valuenow")) >= 0
     wait_text(part(view, "percent"), "%")
 
 
-def test_layers_as_a_chart(page, view):
-    part(view, "layers").wait_for(state="visible", timeout=30_000)
+def test_layers_as_a_chart(own_page, server, idle):
+    page = own_page
+    begin(server, idle)
+    view = open_view(page, server, ADMIN, "job")
+    part(view, "layers").wait_for(state="visible", timeout=45_000)
     drawn = """() => $("#rrfmodel_job .rrfmodel-plot").data("plot").getData()[0].data"""
-    page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=30_000)
+    page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=45_000)
     layers = page.evaluate(drawn)
     assert [layer for layer, _ in layers] == list(range(1, len(layers) + 1))
     # the first one may have begun with the file's head
@@ -130,17 +147,18 @@ def test_layers_as_a_chart(page, view):
     wait_text(part(view, "layer-facts"), "Layer 1:")
     page.reload()
     part(view, "layers").wait_for(state="visible", timeout=60_000)
-    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=30_000)
+    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=45_000)
 
 
+@both_hosts
 def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     expect(part(view, "resume")).to_be_disabled()
     part(view, "pause").click()
-    server.wait_for(lambda: board.board.job.state == "paused", 20, "the pause")
+    server.wait_for(lambda: board.board.job.state == "paused", 45, "the pause")
     wait_text(part(view, "status"), "Paused")
     expect(part(view, "pause")).to_be_disabled()
     part(view, "resume").press("Enter")
-    server.wait_for(lambda: board.board.job.state == "printing", 20, "the job to go on")
+    server.wait_for(lambda: board.board.job.state == "printing", 45, "the job to go on")
     expect(part(view, "cancel")).to_be_enabled()
     part(view, "cancel").click()
     # nothing happens until it was confirmed
@@ -149,8 +167,8 @@ def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     assert board.board.job.is_running
     part(view, "cancel").click()
     confirm(page)
-    server.wait_for(lambda: not board.board.job.is_printing, 30, "the job to end")
-    expect(part(view, "pause")).to_be_hidden(timeout=15_000)
+    server.wait_for(lambda: not board.board.job.is_printing, 45, "the job to end")
+    expect(part(view, "pause")).to_be_hidden(timeout=45_000)
     assert own_errors(page_errors) == []
 
 
@@ -170,7 +188,7 @@ def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, vie
 
 def test_objects(page, view, server, board):
     objects = part(view, "object")
-    expect(objects).to_have_count(2, timeout=20_000)
+    expect(objects).to_have_count(2, timeout=45_000)
     expect(part(objects, "name")).to_have_text(list(NAMES))
     wait_text(objects.nth(0), "X 80…120")
     part(objects.nth(1), "object-cancel").click()
@@ -179,52 +197,52 @@ def test_objects(page, view, server, board):
     wait_text(part(objects.nth(1), "state"), "left out")
     part(objects.nth(1), "object-resume").click()
     wait_board(server, board, "job.build.objects[1].cancelled", False)
-    expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=15_000)
+    expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=45_000)
 
 
 def test_last_job_is_started_again_and_simulated(page, server, idle):
     begin(server, idle)
     end_job(server, idle)
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "last-file"), "parts/clip.gcode")
     wait_text(part(view, "last-duration"), "0:00:")
     part(view, "start-last").click()
     confirm(page)
-    server.wait_for(lambda: idle.board.job.is_running, 20, "the job to begin")
+    server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
     assert idle.board.job.path == "0:/gcodes/parts/clip.gcode"
-    expect(part(view, "last")).to_have_count(0, timeout=15_000)
+    expect(part(view, "last")).to_have_count(0, timeout=45_000)
     end_job(server, idle)
-    part(view, "simulate-last").click(timeout=20_000)
-    server.wait_for(lambda: idle.board.job.is_simulation, 20, "the simulation")
+    part(view, "simulate-last").click(timeout=45_000)
+    server.wait_for(lambda: idle.board.job.is_simulation, 45, "the simulation")
 
 
 def test_nothing_is_started_without_the_motors_supply(page, server, idle):
     idle.board.execute('M23 "parts/clip.gcode"', channel="http")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     expect(part(view, "start")).to_be_visible()
     idle.board.inject("vin_off")
     try:
-        expect(part(view, "start")).to_be_hidden(timeout=20_000)
+        expect(part(view, "start")).to_be_hidden(timeout=45_000)
     finally:
         idle.board.clear("vin_off")
-    expect(part(view, "start")).to_be_visible(timeout=20_000)
+    expect(part(view, "start")).to_be_visible(timeout=45_000)
 
 
 def test_selected_file_is_started(page, server, idle):
     idle.board.execute('M23 "parts/clip.gcode"', channel="http")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "file"), "parts/clip.gcode")
     part(view, "start").click()
     confirm(page)
-    server.wait_for(lambda: idle.board.job.is_running, 20, "the job to begin")
-    expect(part(view, "start")).to_be_hidden(timeout=15_000)
+    server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
+    expect(part(view, "start")).to_be_hidden(timeout=45_000)
 
 
 def test_picture(page, server, idle, page_errors):
     begin(server, idle)
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     picture = part(view, "picture")
-    expect(picture).to_be_visible(timeout=20_000)
+    expect(picture).to_be_visible(timeout=45_000)
     assert picture.evaluate("image => [image.naturalWidth, image.naturalHeight]") == [1, 1]
     assert own_errors(page_errors) == []
 
@@ -232,7 +250,7 @@ def test_picture(page, server, idle, page_errors):
 def test_file_without_a_picture(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/plain.gcode", "G4 S1\n" * 60)
     begin(server, idle, "0:/gcodes/plain.gcode")
-    view = open_view(page, server, ADMIN, "job")
+    view = show_view(page, "job")
     wait_text(part(view, "duration"), "0:")
     expect(part(view, "picture")).to_be_hidden()
     assert own_errors(page_errors) == []
@@ -241,8 +259,8 @@ def test_file_without_a_picture(page, server, idle, page_errors):
 def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
-    view = open_view(page, server, ADMIN, "job")
-    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=15_000)
+    view = show_view(page, "job")
+    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=45_000)
     wait_text(part(view, "object").nth(0), MARKUP)
     assert view.locator("img:not([data-test=picture]), b").count() == 0
     part(view.locator("[data-test=object]").nth(0), "object-cancel").click()
@@ -251,13 +269,13 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     assert own_errors(page_errors) == []
 
 
-def test_a_reader_sees_and_can_do_nothing(page, server, idle, page_errors):
+def test_a_reader_sees_and_can_do_nothing(reader_page, server, idle, page_errors):
     begin(server, idle)
-    view = open_view(page, server, READER, "job")
+    view = show_view(reader_page, "job")
     wait_text(part(view, "file"), "clip.gcode")
     for name in ("pause", "cancel"):
         expect(part(view, name)).to_be_disabled()
-    expect(part(view, "object-cancel").first).to_be_disabled(timeout=20_000)
+    expect(part(view, "object-cancel").first).to_be_disabled(timeout=45_000)
     assert idle.board.job.is_running
     assert own_errors(page_errors) == []
 
@@ -270,11 +288,12 @@ def test_a_refusal_is_told(page, view, server, board):
     )
     part(view, "pause").click()
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
-        "The machine has no job.", timeout=15_000
+        "The machine has no job.", timeout=45_000
     )
 
 
-def test_a_picture_that_was_refused_is_asked_for_again(page, server, idle):
+def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle):
+    page = fresh_page
     begin(server, idle)
     page.clock.install()
     # the machine had no time for it
@@ -296,14 +315,14 @@ def test_a_picture_that_was_refused_is_asked_for_again(page, server, idle):
 
 def test_narrow(page, view):
     page.set_viewport_size({"width": 480, "height": 900})
-    page.add_style_tag(content="#rrfmodel_job { width: 440px; }")
-    part(view, "layers").wait_for(state="visible", timeout=30_000)
-    # the drawing follows the width a little later
-    page.wait_for_function(
-        """() => {
-            const region = document.querySelector("#rrfmodel_job");
-            return region.scrollWidth <= region.clientWidth;
-        }""",
-        timeout=10_000,
-    )
-    expect(part(view, "pause")).to_be_visible()
+    with styled(page, "#rrfmodel_job { width: 440px; }"):
+        part(view, "layers").wait_for(state="visible", timeout=45_000)
+        # the drawing follows the width a little later
+        page.wait_for_function(
+            """() => {
+                const region = document.querySelector("#rrfmodel_job");
+                return region.scrollWidth <= region.clientWidth;
+            }""",
+            timeout=45_000,
+        )
+        expect(part(view, "pause")).to_be_visible()

@@ -3,10 +3,17 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.basedir import ADMIN, READER
-
 from .. import helpers
-from . import board_value, open_view, own_errors, part, type_number, wait_board, wait_text
+from . import (
+    board_value,
+    both_hosts,
+    own_errors,
+    part,
+    show_view,
+    type_number,
+    wait_board,
+    wait_text,
+)
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -17,8 +24,9 @@ BOARD = {"machine": "toolchanger", "speed": 10}
 
 
 @pytest.fixture
-def view(page, server):
-    return open_view(page, server, ADMIN, "machine")
+def view(page, board):
+    board.board.execute("G54\nM568 P1 S0 R0 A0", channel="http")
+    return show_view(page, "machine")
 
 
 def near(wanted):
@@ -65,7 +73,7 @@ def test_a_move_has_the_speed_that_is_shown(view, server, board):
     part(axis(view, "X"), "plus").click()
     (move,) = server.wait_for(
         lambda: [line for line in helpers.commands(board)[sent:] if "G1 X10" in line],
-        15,
+        45,
         "the move",
     )
     assert "F1200" in move.split()
@@ -73,7 +81,7 @@ def test_a_move_has_the_speed_that_is_shown(view, server, board):
 
 def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
     field = part(part(view, "tool").first, "standby")
-    expect(field).not_to_have_value("", timeout=15_000)
+    expect(field).not_to_have_value("", timeout=45_000)
     before = field.input_value()
     field.fill("99")
     board.board.execute("M568 P3 S31", channel="http")
@@ -107,6 +115,7 @@ def test_bed(view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_axes(view, server, board, page_errors):
     part(view, "home-all").click()
     wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
@@ -127,22 +136,22 @@ def test_axes(view, server, board, page_errors):
 
 def test_selecting_feeding_and_putting_down(view, server, board, page_errors):
     board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 30)
+    helpers.wait_value(server, "move.axes[].homed", all, 45)
     tool = part(view, "tool").first
     part(tool, "select").click()
-    wait_board(server, board, "state.currentTool", 1, 30)
+    wait_board(server, board, "state.currentTool", 1, 45)
     view.locator("[data-test=tool].rrfmodel-chosen").wait_for()
     board.board.execute("M568 P1 S210 A2", channel="http")
     helpers.wait_value(server, "heat.heaters[1].current", lambda now: now > 200, 90)
     before = board_value(board, "move.extruders[0].position")
     part(view, "extrude-length").fill("6")
     part(view, "extrude").click()
-    wait_board(server, board, "move.extruders[0].position", near(before + 6), 30)
+    wait_board(server, board, "move.extruders[0].position", near(before + 6), 45)
     part(view, "retract").click()
-    wait_board(server, board, "move.extruders[0].position", near(before), 30)
+    wait_board(server, board, "move.extruders[0].position", near(before), 45)
     board.board.execute("M568 P1 A0", channel="http")
     part(view, "deselect").click()
-    wait_board(server, board, "state.currentTool", -1, 30)
+    wait_board(server, board, "state.currentTool", -1, 45)
     assert own_errors(page_errors) == []
 
 
@@ -171,7 +180,7 @@ def test_heater_fault_is_reset(page, view, server, board):
     board.board.clear("heater_fault")
     part(view, "reset-fault").click()
     wait_board(server, board, "heat.heaters[2].state", "off")
-    expect(part(view, "fault")).to_have_count(0, timeout=20_000)
+    expect(part(view, "fault")).to_have_count(0, timeout=45_000)
 
 
 def test_text_of_the_printer_is_text(view, server, board, page_errors):
@@ -182,8 +191,8 @@ def test_text_of_the_printer_is_text(view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
-def test_who_may_only_read_can_use_nothing(page, server):
-    view = open_view(page, server, READER, "machine")
+def test_who_may_only_read_can_use_nothing(reader_page):
+    view = show_view(reader_page, "machine")
     controls = view.locator("button:visible, input:visible")
     expect(part(view, "axis-row")).not_to_have_count(0)
     expect(part(view, "tool")).not_to_have_count(0)
@@ -195,40 +204,15 @@ def test_says_why_what_it_shows_is_old(page, view, server):
     reason = page.locator("[data-test=tab-reason]")
     expect(reason).to_be_hidden()
     server.commands("G4 S20")
-    expect(reason).to_be_visible(timeout=20_000)
+    expect(reason).to_be_visible(timeout=45_000)
     expect(reason).to_contain_text("long command")
     expect(reason).to_be_hidden(timeout=60_000)
 
 
 def test_refusals_are_told(page, view, server, board):
     board.board.execute("M18", channel="http")
-    helpers.wait_value(server, "move.axes[0].homed", False, 15)
+    helpers.wait_value(server, "move.axes[0].homed", False, 45)
     part(axis(view, "X"), "plus").click()
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
-        "Home these axes first: X", timeout=15_000
+        "Home these axes first: X", timeout=45_000
     )
-
-
-def test_each_heater_of_a_tool_has_its_own_temperature(page, module_server_factory, board_factory):
-    board = board_factory(machine="idex", speed=10)
-    server = module_server_factory()
-    helpers.connect(server, board)
-    board.board.execute("M568 P2 S210:190 R150:140", channel="http")
-    view = open_view(page, server, ADMIN, "machine")
-    tool = part(view, "tool").nth(2)
-    expect(part(tool, "active")).to_have_count(2)
-    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=15_000)
-    type_number(part(tool, "active").nth(0), 215)
-    wait_board(server, board, "tools[2].active", [215, 190])
-    type_number(part(tool, "standby").nth(1), 130)
-    wait_board(server, board, "tools[2].standby", [150, 130])
-    # one that is off doesn't keep the others from being set
-    with board.board.lock:
-        board.board.data["tools"][2]["active"] = [215, -273.1]
-    expect(part(tool, "active").nth(1)).to_have_value("", timeout=15_000)
-    type_number(part(tool, "active").nth(0), 220)
-    wait_board(server, board, "tools[2].active", [220, 0])
-    # a fault of any of them is the tool's
-    heaters = board_value(board, "tools[2].heaters")
-    board.board.inject(f"heater_fault:{heaters[1]}")
-    wait_text(part(tool, "state"), "fault")

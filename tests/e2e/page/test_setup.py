@@ -7,41 +7,26 @@ from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import own_errors, part, wait_text
+from . import SECONDS, both_hosts, own_errors, part, wait_text
+from .wizard import PROFILE, SHOW, command, setup
 
 pytestmark = pytest.mark.timeout(240)
 
-PROFILE = "/api/printerprofiles/_default"
-
-
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="corexy")
+BOARD = {"machine": "corexy"}
 
 
 @pytest.fixture
-def server(server_factory, board):
-    made = server_factory(plugins_config={"rrfmodel": {"wizard_seen": False}})
-    helpers.connect(made, board)
-    return made
+def server(unasked_server):
+    return unasked_server
 
 
-def setup(server):
-    response = server.get("/plugin/rrfmodel/setup")
-    assert response.status_code == 200, response.text
-    return response.json()
-
-
-def command(server, **data):
-    return server.post("/api/plugin/rrfmodel", json=data)
-
-
-def test_wizard_sets_both_and_is_seen_once(page, server, page_errors):
+@both_hosts
+def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     before = server.get(PROFILE).json()
     assert helpers.status(server)["first_run"] is True
-    open_octoprint(page, server, ADMIN)
-    wizard = page.locator("#rrfmodel_wizard_dialog")
-    expect(wizard).to_be_visible(timeout=15_000)
+    open_octoprint(own_page, server, ADMIN)
+    wizard = own_page.locator("#rrfmodel_wizard_dialog")
+    expect(wizard).to_be_visible(timeout=45_000)
     expect(part(wizard, "needed")).to_have_count(4)
     part(wizard, "set-needed").click()
     wait_text(part(wizard, "needed-state").last, "as needed")
@@ -57,7 +42,7 @@ def test_wizard_sets_both_and_is_seen_once(page, server, page_errors):
     assert after["volume"]["width"] == differences["volume.width"]
     part(wizard, "wizard-done").click()
     expect(wizard).to_be_hidden()
-    server.wait_for(lambda: not helpers.status(server)["first_run"], 15, "the end of the first run")
+    server.wait_for(lambda: not helpers.status(server)["first_run"], 45, "the end of the first run")
     assert own_errors(page_errors) == []
     # and all of it is taken back with the plugin
     assert command(server, command="restore_settings").status_code == 204
@@ -99,33 +84,34 @@ def test_bad_fields_are_refused(server, fields):
     assert server.get(PROFILE).json() == before
 
 
-def test_the_wizard_is_for_those_who_may_change_settings(page, server):
-    open_octoprint(page, server, OPERATOR)
-    page.locator("[data-test=status]").first.wait_for()
+def test_the_wizard_is_for_those_who_may_change_settings(fresh_page, server):
+    open_octoprint(fresh_page, server, OPERATOR)
+    fresh_page.locator("[data-test=status]").first.wait_for()
     helpers.wait_polls(server, 2)
-    expect(page.locator("#rrfmodel_wizard_dialog")).to_be_hidden()
+    expect(fresh_page.locator("#rrfmodel_wizard_dialog")).to_be_hidden()
 
 
-def test_settings_page(page, server, page_errors):
+@both_hosts
+def test_settings_page(own_page, server, page_errors):
     assert command(server, command="wizard_done").status_code == 204
-    open_octoprint(page, server, ADMIN)
-    page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.show('#settings_plugin_rrfmodel')")
-    pane = page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=15_000)
+    open_octoprint(own_page, server, ADMIN)
+    own_page.evaluate(SHOW)
+    pane = own_page.locator("#rrfmodel_setup")
+    part(pane, "needed").first.wait_for(timeout=45_000)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
     expect(part(pane, "difference")).to_have_count(len(setup(server)["profile"]))
     assert own_errors(page_errors) == []
 
 
-def test_what_was_unticked_stays_so(page, server):
+def test_what_was_unticked_stays_so(own_page, server):
     assert command(server, command="wizard_done").status_code == 204
     assert command(server, command="restore_settings").status_code == 204
-    open_octoprint(page, server, ADMIN)
-    page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.show('#settings_plugin_rrfmodel')")
-    pane = page.locator("#rrfmodel_setup")
+    open_octoprint(own_page, server, ADMIN)
+    own_page.evaluate(SHOW)
+    pane = own_page.locator("#rrfmodel_setup")
     ticks = pane.locator("[data-test=difference] input")
-    ticks.first.wait_for(timeout=15_000)
+    ticks.first.wait_for(timeout=45_000)
     ticks.first.uncheck()
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
@@ -133,27 +119,34 @@ def test_what_was_unticked_stays_so(page, server):
     expect(ticks.nth(1)).to_be_checked()
 
 
-def test_settings_page_that_is_open_when_the_machine_comes(page, server, board, page_errors):
+def test_settings_page_that_is_open_when_the_machine_comes(own_page, server, board, page_errors):
     assert command(server, command="wizard_done").status_code == 204
     helpers.disconnect(server)
-    open_octoprint(page, server, ADMIN)
-    page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.show('#settings_plugin_rrfmodel')")
-    pane = page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=15_000)
+    open_octoprint(own_page, server, ADMIN)
+    own_page.evaluate(SHOW)
+    pane = own_page.locator("#rrfmodel_setup")
+    part(pane, "needed").first.wait_for(timeout=45_000)
     expect(part(pane, "difference")).to_have_count(0)
-    helpers.connect(server, board)
-    expect(part(pane, "difference")).not_to_have_count(0, timeout=20_000)
+    helpers.connect(server, board, SECONDS)
+    expect(part(pane, "difference")).not_to_have_count(0, timeout=45_000)
     helpers.disconnect(server)
-    expect(part(pane, "difference")).to_have_count(0, timeout=20_000)
+    expect(part(pane, "difference")).to_have_count(0, timeout=45_000)
     assert own_errors(page_errors) == []
 
 
-def test_rows_of_the_sidebar_fold_away(page, server):
-    assert command(server, command="wizard_done").status_code == 204
+@pytest.fixture
+def without_axes(server):
     server.set_setting("plugins.rrfmodel.sidebar.axes", False)
-    open_octoprint(page, server, ADMIN)
-    sidebar = page.locator("[data-test=rrfmodel-sidebar]")
-    part(sidebar, "heater").first.wait_for(timeout=15_000)
+    yield
+    server.set_setting("plugins.rrfmodel.sidebar.axes", True)
+
+
+@both_hosts
+def test_rows_of_the_sidebar_fold_away(own_page, server, without_axes):
+    assert command(server, command="wizard_done").status_code == 204
+    open_octoprint(own_page, server, ADMIN)
+    sidebar = own_page.locator("[data-test=rrfmodel-sidebar]")
+    part(sidebar, "heater").first.wait_for(timeout=45_000)
     # the whole model is there
     expect(part(sidebar, "sidebar-fan")).not_to_have_count(0)
     expect(part(sidebar, "axis")).to_have_count(0)

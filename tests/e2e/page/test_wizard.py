@@ -7,40 +7,17 @@ from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import own_errors, part, wait_text
+from . import SECONDS, both_hosts, own_errors, part, wait_text
+from .wizard import PROFILE, SHOW, command, setup
 
 pytestmark = pytest.mark.timeout(240)
 
-PROFILE = "/api/printerprofiles/_default"
-
-SHOW = "OctoPrint.coreui.viewmodels.settingsViewModel.show('#settings_plugin_rrfmodel')"
-
-
-@pytest.fixture(scope="module")
-def board(module_board_factory):
-    return module_board_factory(machine="corexy")
-
-
-@pytest.fixture(scope="module")
-def shared(module_server_factory):
-    return module_server_factory(plugins_config={"rrfmodel": {"wizard_seen": False}})
+BOARD = {"machine": "corexy"}
 
 
 @pytest.fixture
-def server(shared, board):
-    """Return the server as before anybody has been asked, with a machine that is ready."""
-    shared.set_setting("plugins.rrfmodel.wizard_seen", False)
-    command(shared, command="restore_settings")
-    helpers.connect(shared, board)
-    return shared
-
-
-def command(server, **data):
-    return server.post("/api/plugin/rrfmodel", json=data)
-
-
-def setup(server):
-    return server.get("/plugin/rrfmodel/setup").json()
+def server(unasked_server):
+    return unasked_server
 
 
 def wizard_of(page):
@@ -51,7 +28,7 @@ def open_settings(page, server):
     open_octoprint(page, server, ADMIN)
     page.evaluate(SHOW)
     pane = page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=15_000)
+    part(pane, "needed").first.wait_for(timeout=45_000)
     return pane
 
 
@@ -76,91 +53,93 @@ def test_all_is_true_or_false(server, wrong):
     assert server.get(PROFILE).json() == before
 
 
-def test_the_wizard_leads_through_by_keyboard(page, server, page_errors):
-    open_octoprint(page, server, ADMIN)
-    wizard = wizard_of(page)
-    expect(wizard).to_be_visible(timeout=15_000)
+def test_the_wizard_leads_through_by_keyboard(own_page, server, page_errors):
+    open_octoprint(own_page, server, ADMIN)
+    wizard = wizard_of(own_page)
+    expect(wizard).to_be_visible(timeout=45_000)
     expect(part(wizard, "wizard-settings").locator("h4")).to_be_focused()
     part(wizard, "wizard-next").press("Enter")
     expect(part(wizard, "wizard-profile").locator("h4")).to_be_focused()
     part(wizard, "wizard-back").press("Enter")
     expect(part(wizard, "wizard-settings").locator("h4")).to_be_focused()
-    page.keyboard.press("Escape")
+    own_page.keyboard.press("Escape")
     expect(wizard).to_be_hidden()
     assert helpers.status(server)["first_run"] is True
     assert own_errors(page_errors) == []
 
 
-def test_who_wants_it_later_is_asked_again(page, server, page_errors):
-    open_octoprint(page, server, ADMIN)
-    wizard = wizard_of(page)
-    expect(wizard).to_be_visible(timeout=15_000)
+def test_who_wants_it_later_is_asked_again(own_page, server, page_errors):
+    open_octoprint(own_page, server, ADMIN)
+    wizard = wizard_of(own_page)
+    expect(wizard).to_be_visible(timeout=45_000)
     part(wizard, "wizard-later").click()
     expect(wizard).to_be_hidden()
     helpers.wait_polls(server, 2)
     expect(wizard).to_be_hidden()
     assert helpers.status(server)["first_run"] is True
-    open_octoprint(page, server, ADMIN)
-    expect(wizard_of(page)).to_be_visible(timeout=15_000)
+    open_octoprint(own_page, server, ADMIN)
+    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
     assert own_errors(page_errors) == []
 
 
-def test_who_declines_is_not_asked_again(page, server, page_errors):
-    open_octoprint(page, server, ADMIN)
-    wizard = wizard_of(page)
-    expect(wizard).to_be_visible(timeout=15_000)
+def test_who_declines_is_not_asked_again(own_page, server, page_errors):
+    open_octoprint(own_page, server, ADMIN)
+    wizard = wizard_of(own_page)
+    expect(wizard).to_be_visible(timeout=45_000)
     part(wizard, "wizard-never").click()
     expect(wizard).to_be_hidden()
-    server.wait_for(lambda: not helpers.status(server)["first_run"], 15, "the end of the first run")
+    server.wait_for(lambda: not helpers.status(server)["first_run"], 45, "the end of the first run")
     # nothing was written
     assert not all(row["fulfilled"] for row in setup(server)["settings"])
     assert setup(server)["profile"]
     assert own_errors(page_errors) == []
 
 
-def test_the_wizard_comes_with_the_first_machine(page, server, board):
+def test_the_wizard_comes_with_the_first_machine(own_page, server, board):
     helpers.disconnect(server)
-    open_octoprint(page, server, ADMIN)
-    expect(wizard_of(page)).to_be_hidden()
-    helpers.connect(server, board)
-    expect(wizard_of(page)).to_be_visible(timeout=15_000)
+    open_octoprint(own_page, server, ADMIN)
+    expect(wizard_of(own_page)).to_be_hidden()
+    helpers.connect(server, board, SECONDS)
+    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
 
 
-def test_the_wizard_waits_for_another_dialog(page, server, board):
+@both_hosts
+def test_the_wizard_waits_for_another_dialog(own_page, server, board):
     helpers.disconnect(server)
-    pane = open_settings(page, server)
-    helpers.connect(server, board)
-    page.wait_for_function(
-        "OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run", timeout=15_000
+    pane = open_settings(own_page, server)
+    helpers.connect(server, board, SECONDS)
+    own_page.wait_for_function(
+        "OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run", timeout=45_000
     )
     expect(pane).to_be_visible()
-    expect(wizard_of(page)).to_be_hidden()
-    page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.hide()")
-    expect(wizard_of(page)).to_be_visible(timeout=15_000)
+    expect(wizard_of(own_page)).to_be_hidden()
+    own_page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.hide()")
+    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
 
 
-def test_the_wizard_stays_away_where_nothing_is_to_do(page, server):
+def test_the_wizard_stays_away_where_nothing_is_to_do(own_page, server):
     command(server, command="fix_settings")
     command(server, command="fix_profile", all=True)
     helpers.wait_polls(server, 2)
     assert helpers.status(server)["first_run"] is True
-    with page.expect_response(lambda response: response.url.endswith("/rrfmodel/setup")):
-        open_octoprint(page, server, ADMIN)
-    expect(part(page.locator("#rrfmodel_setup"), "profile-fits")).to_have_count(1)
-    assert page.evaluate("$('.modal:visible').length") == 0
+    with own_page.expect_response(lambda response: response.url.endswith("/rrfmodel/setup")):
+        open_octoprint(own_page, server, ADMIN)
+    expect(part(own_page.locator("#rrfmodel_setup"), "profile-fits")).to_have_count(1)
+    assert own_page.evaluate("$('.modal:visible').length") == 0
 
 
-def test_settings_are_set_and_taken_back(page, server, page_errors):
+@both_hosts
+def test_settings_are_set_and_taken_back(own_page, server, page_errors):
     command(server, command="wizard_done")
     before = server.get(PROFILE).json()
-    pane = open_settings(page, server)
+    pane = open_settings(own_page, server)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").last, "as needed")
     part(pane, "write-profile").click()
     expect(part(pane, "profile-fits")).to_be_visible()
     assert server.get(PROFILE).json() != before
     # OctoPrint doesn't ask whose settings are to stay
-    expect(page.locator("#settings_dialog_update_detected")).to_be_hidden()
+    expect(own_page.locator("#settings_dialog_update_detected")).to_be_hidden()
     part(pane, "restore").click()
     wait_text(part(pane, "needed-state").last, "to be set")
     expect(part(pane, "difference").first).to_be_visible()
@@ -168,10 +147,11 @@ def test_settings_are_set_and_taken_back(page, server, page_errors):
     assert own_errors(page_errors) == []
 
 
-def test_every_part_of_the_settings_is_there(page, server, page_errors):
+@both_hosts
+def test_every_part_of_the_settings_is_there(own_page, server, page_errors):
     command(server, command="wizard_done")
-    open_settings(page, server)
-    dialog = page.locator("#settings_plugin_rrfmodel")
+    open_settings(own_page, server)
+    dialog = own_page.locator("#settings_plugin_rrfmodel")
     headings = [text.strip() for text in dialog.locator("h4").all_inner_texts()]
     assert headings == [
         "Pause a print that OctoPrint streams when",

@@ -1,0 +1,80 @@
+"""The sub-view Machine of a router: its spindle, and the laser in its stead."""
+
+import pytest
+from playwright.sync_api import expect
+
+from . import board_value, part, show_view, type_number, wait_board, wait_text
+
+pytestmark = pytest.mark.timeout(240)
+
+BOARD = {"machine": "cnc", "speed": 20}
+
+
+@pytest.fixture
+def view(page, board):
+    show_view(page, "machine")
+    return page.locator("#rrfmodel_machine_parts")
+
+
+@pytest.fixture(autouse=True)
+def _as_it_was(board):
+    yield
+    board.board.execute("M5 P0", channel="http")
+    with board.board.lock:
+        board.board.data["state"]["machineMode"] = "CNC"
+        board.board.data["move"]["currentMove"]["laserPwm"] = None
+        board.board.bump("state", "move")
+
+
+def test_speed_and_direction(view, server, board):
+    spindle = part(view, "spindle")
+    expect(spindle).to_have_count(1, timeout=45_000)
+    type_number(part(spindle, "rpm"), 8000)
+    wait_board(server, board, "spindles[0].active", 8000)
+    wait_board(server, board, "spindles[0].state", "forward")
+    # one that somebody else has turned round goes on as it turns
+    board.board.execute("M4 P0 S500", channel="http")
+    expect(part(spindle, "reverse")).to_be_checked(timeout=45_000)
+    type_number(part(spindle, "rpm"), 700)
+    wait_board(server, board, "spindles[0].active", 700)
+    assert board_value(board, "spindles[0].state") == "reverse"
+    part(spindle, "reverse").uncheck()
+    type_number(part(spindle, "rpm"), 900)
+    wait_board(server, board, "spindles[0].state", "forward")
+    part(spindle, "reverse").check()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].state", "reverse")
+    part(spindle, "stop").click()
+    wait_board(server, board, "spindles[0].state", "stopped")
+    expect(part(spindle, "reverse")).not_to_be_checked(timeout=45_000)
+    # and in the mode for it a laser is shown
+    expect(part(view, "laser")).to_be_hidden()
+    with board.board.lock:
+        board.board.data["state"]["machineMode"] = "Laser"
+        board.board.data["move"]["currentMove"]["laserPwm"] = 0.5
+        board.board.bump("state")
+    wait_text(part(view, "laser"), "50 %")
+
+
+def test_direction_that_is_chosen_before_the_last_speed_is_answered(page, view, server, board):
+    spindle = part(view, "spindle")
+    reverse = part(spindle, "reverse")
+    held = []
+    page.route(
+        "**/api/plugin/rrfmodel",
+        lambda route: held.append((route, route.fetch())),
+        times=1,
+    )
+    type_number(part(spindle, "rpm"), 900)
+    # what is held is seen while Playwright is at work
+    server.wait_for(lambda: page.wait_for_timeout(20) or held, 45, "the speed to be sent")
+    wait_board(server, board, "spindles[0].state", "forward")
+    reverse.check()
+    route, answer = held[0]
+    with page.expect_response("**/api/plugin/rrfmodel"):
+        route.fulfill(response=answer)
+    wait_text(part(spindle, "current"), "900")
+    expect(reverse).to_be_checked()
+    type_number(part(spindle, "rpm"), 6000)
+    wait_board(server, board, "spindles[0].active", 6000)
+    assert board_value(board, "spindles[0].state") == "reverse"
