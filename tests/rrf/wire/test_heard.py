@@ -2,7 +2,7 @@
 
 import pytest
 
-from octoprint_rrfmodel.rrf.wire.errors import guarded_alert, is_serious
+from octoprint_rrfmodel.rrf.wire.errors import guarded_warning, is_serious
 from octoprint_rrfmodel.rrf.wire.heard import TELLING, WORDS, heard
 
 LINES = [
@@ -48,4 +48,4 @@ def test_each_pattern_has_an_example():
 )
 def test_guarded(text, code):
     assert is_serious(text)
-    assert guarded_alert(text) == code
+    assert guarded_warning(text) == code
