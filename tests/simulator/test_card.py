@@ -76,6 +76,12 @@ def test_no_buffers_for_a_list(bench):
     assert board.send("M20 S3") == '{"err":-1}\n\nok\n'
 
 
+@pytest.mark.parametrize("room, answered", [(20, False), (20_000, True)])
+def test_no_buffers_for_a_list_of_that_size(bench, room, answered):
+    board = bench(faults=[f"err_no_buffers:>{room}"])
+    assert ('"files"' in board.send("M20 S3")) is answered
+
+
 def test_upload_gets_no_ok_until_its_end(bench):
     board = bench()
     assert board.send("M28 part.gcode") == "ok\nWriting to file: part.gcode\n"

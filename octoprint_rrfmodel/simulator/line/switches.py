@@ -130,15 +130,18 @@ class FaultSwitches:
                 data = row.change(data)
         return data
 
+    def has_no_buffers_for(self, text: str) -> bool:
+        """Return whether there is no room for a reply; those that are counted are counted."""
+        argument = self._on.get("err_no_buffers")
+        if argument is not None and argument.startswith(">"):
+            return len(text) > float(argument[1:])
+        return self.take("err_no_buffers")
+
     def model_text(self, text: str) -> str:
         """Return the JSON text of M409 or M408 as the faults leave it."""
         if not self._on:
             return text
-        argument = self._on.get("err_no_buffers")
-        if argument is not None and argument.startswith(">"):
-            if len(text) > float(argument[1:]):
-                return OUT_OF_BUFFERS
-        elif self.take("err_no_buffers"):
+        if self.has_no_buffers_for(text):
             return OUT_OF_BUFFERS
         if self.take("nesting_bomb"):
             head = text.partition('"result":')[0]

@@ -44,7 +44,7 @@ class Listing:
         elif not self._card.has_folder(path):
             error = NO_FOLDER
         text = (self._names if kind == 2 else self._details)(asked, path, first, error)
-        if self._faults.take("err_no_buffers"):
+        if self._faults.has_no_buffers_for(text):
             text = OUT_OF_BUFFERS
         return Reply(text + "\n", Kind.LONG)
 
