@@ -161,7 +161,7 @@ def server_pool(octoprint_version, tmp_path_factory, ports_dir):
 
 
 @contextlib.contextmanager
-def _servers(pool):
+def lent_servers(pool):
     """Yield a function that lends servers; all of them are given back in the end."""
     with contextlib.ExitStack() as stack:
 
@@ -182,14 +182,14 @@ def server_factory(server_pool):
     Nothing is connected, and all but the logs and counters is as after a start; with ``own=True``
     it is one that has just been started.
     """
-    with _servers(server_pool) as lend:
+    with lent_servers(server_pool) as lend:
         yield lend
 
 
 @pytest.fixture(scope="module")
 def module_server_factory(server_pool):
     """``server_factory`` for servers that all tests of a module share."""
-    with _servers(server_pool) as lend:
+    with lent_servers(server_pool) as lend:
         yield lend
 
 

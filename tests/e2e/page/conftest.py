@@ -54,10 +54,10 @@ def say_nothing(server, board):
 
 
 @pytest.fixture(scope="session")
-def shared_server(octoprint_version, tmp_path_factory, ports_dir):
+def shared_server(server_pool):
     """A server with the plugin and no options, for every module that a worker runs."""
-    with bench._servers(lambda: tmp_path_factory.mktemp("octoprint"), ports_dir) as start:
-        yield start()
+    with bench.lent_servers(server_pool) as lend:
+        yield lend()
 
 
 @pytest.fixture(scope="module")
