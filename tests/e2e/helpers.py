@@ -10,7 +10,7 @@ READY_SECONDS = 15
 LIVE_SECONDS = 3
 SETTLED_SECONDS = 5
 
-INTERVAL = 3
+INTERVAL = 4
 """Seconds without a line after which OctoPrint counts a timeout; the second one is the end."""
 
 SHORT_TIMEOUTS = {

@@ -10,10 +10,10 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
     pytest.mark.slow,
-    pytest.mark.timeout(240),
+    pytest.mark.timeout(300),
 ]
 
-HEATING_SECONDS = 14
+HEATING_SECONDS = 18
 """More than twice what OctoPrint waits in all."""
 
 FIRMWARE = ("3.5.1", "3.5.3")

@@ -7,11 +7,11 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("board",)),
     pytest.mark.slow,
-    pytest.mark.timeout(120),
+    pytest.mark.timeout(300),
 ]
 
 FIRMWARE = ("3.5.1", "3.5.3")
-SECONDS = 7
+SECONDS = 10
 """Longer than OctoPrint waits in all."""
 
 

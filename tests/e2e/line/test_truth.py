@@ -11,7 +11,7 @@ from .. import helpers
 
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
-    pytest.mark.timeout(120),
+    pytest.mark.timeout(300),
 ]
 
 

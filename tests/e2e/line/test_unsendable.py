@@ -13,7 +13,7 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("line",)),
     pytest.mark.slow,
-    pytest.mark.timeout(240),
+    pytest.mark.timeout(300),
 ]
 
 BLOCKING_BOX = 'M291 P"Is it S1 there?" R"Look" S3'
@@ -123,6 +123,8 @@ def test_streamed(server, connected):
                 server.wait_for(lambda: not paused(server), 5, "the end of the warning")
             resume(server)
         server.wait_state("Operational", 20)
+        # events come later than the state that they tell of
+        push.wait_for_event("PrintDone")
         assert len(push.events("PrintPaused")) == len(stops)
         (notice,) = [found for found in push.of_plugin() if found.get("code") == "print_paused"]
         assert '"Is it S1 there?"' in notice["text"]

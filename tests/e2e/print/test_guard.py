@@ -95,6 +95,9 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         board.board.inject(fault)
         server.wait_state("Paused", PAUSE_SECONDS + 15)
         assert code in codes(server)
+        # notice and event come later than the state that they tell of
+        server.wait_for(lambda: paused(push), 5, "the notice")
+        push.wait_for_event("PrintPaused")
         (notice,) = paused(push)
         told = pause(server)
         assert told["values"]["next"] == "wait"
