@@ -9,6 +9,8 @@ from playwright.sync_api import expect
 from tests.support import waiting
 from tests.support.browser import open_octoprint
 
+from .. import helpers
+
 SECONDS = 45
 
 both_hosts = pytest.mark.both_hosts("each has its own page, log-in, settings and bundles")
@@ -85,6 +87,14 @@ def wait_board(server, board, key, wanted, seconds=SECONDS):
         return (found,) if fits(found) else None
 
     return server.wait_for(fitting, seconds, f"{key} of the board to be {wanted!r}")[0]
+
+
+def home(server, board):
+    """Home all axes; return once the model says so, and not of an earlier time."""
+    board.board.execute("M84", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", lambda homed: not any(homed), SECONDS)
+    board.board.execute("G28", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", all, SECONDS)
 
 
 def own_errors(page_errors):

@@ -9,7 +9,7 @@ from tests.support.basedir import ADMIN
 from tests.support.browser import open_octoprint
 
 from .. import helpers
-from . import board_value, both_hosts, own_errors, part, wait_board, wait_text
+from . import board_value, both_hosts, home, own_errors, part, wait_board, wait_text
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -248,8 +248,7 @@ def test_closes_when_answered_elsewhere_and_the_next_one_comes(box, server, boar
 
 def test_axes_are_moved(box, server, board):
     board.board.speed = 10
-    board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 45)
+    home(server, board)
     ask(board, 'P"Jog" S2 Z1')
     wait_text(part(box, "box-axis"), "Z")
     before = board_value(board, "move.axes[2].machinePosition")

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from .. import helpers
-from . import CONFIRM, both_hosts, part
+from . import CONFIRM, both_hosts, home, part
 
 pytestmark = pytest.mark.timeout(300)
 
@@ -23,8 +23,7 @@ def test_a_reader_can_not_stop_the_machine(reader_page, board):
 
 def test_restarts_the_machine(page, server, board):
     resets = helpers.status(server)["resets"]
-    board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 45)
+    home(server, board)
     told_before = server.log().count(CONNECTED_AGAIN)
     part(page, "restart").click()
     page.locator(CONFIRM).click()

@@ -5,8 +5,10 @@ from playwright.sync_api import expect
 
 from .. import helpers
 from . import (
+    SECONDS,
     board_value,
     both_hosts,
+    home,
     own_errors,
     part,
     show_view,
@@ -25,7 +27,7 @@ BOARD = {"machine": "toolchanger", "speed": 10}
 
 @pytest.fixture
 def view(page, board):
-    board.board.execute("G54\nM568 P1 S0 R0 A0", channel="http")
+    board.board.execute("M568 P1 S0 R0 A0\nM220 S100\nM221 D0 S100", channel="http")
     return show_view(page, "machine")
 
 
@@ -65,8 +67,7 @@ def test_offsets_of_a_tool(view, server, board, page_errors):
 
 
 def test_a_move_has_the_speed_that_is_shown(view, server, board):
-    board.board.execute("G28", channel="http")
-    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    home(server, board)
     sent = len(helpers.commands(board))
     part(view, "jog-speed").fill("1200")
     part(view, "step").filter(has_text="10").first.click()
@@ -117,6 +118,8 @@ def test_bed(view, server, board, page_errors):
 
 @both_hosts
 def test_axes(view, server, board, page_errors):
+    board.board.execute("M84", channel="http")
+    helpers.wait_value(server, "move.axes[].homed", lambda homed: not any(homed), SECONDS)
     part(view, "home-all").click()
     wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
     wait_text(part(axis(view, "X"), "homed"), "homed")
@@ -135,8 +138,7 @@ def test_axes(view, server, board, page_errors):
 
 
 def test_selecting_feeding_and_putting_down(view, server, board, page_errors):
-    board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 45)
+    home(server, board)
     tool = part(view, "tool").first
     part(tool, "select").click()
     wait_board(server, board, "state.currentTool", 1, 45)
@@ -162,7 +164,7 @@ def test_fans_factors_and_baby_steps(view, server, board, page_errors):
     wait_board(server, board, "move.speedFactor", near(1.2))
     type_number(part(view, "extrusion-factor").first, 95)
     wait_board(server, board, "move.extruders[0].factor", near(0.95))
-    board.board.execute("G28", channel="http")
+    home(server, board)
     part(view, "babystep-by").filter(has_text="+0.05").click()
     wait_board(server, board, "move.axes[2].babystep", near(0.05))
     wait_text(part(view, "babystep"), "0.050")

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from .. import helpers
-from . import CONFIRM, both_hosts, own_errors, part, show_view, wait_board, wait_text
+from . import CONFIRM, both_hosts, home, own_errors, part, show_view, wait_board, wait_text
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -46,8 +46,7 @@ def test_what_there_is_to_see(view, board, page_errors):
 
 
 def test_mesh(view, server, board, page_errors):
-    board.board.execute("G28", channel="http")
-    helpers.wait_value(server, "move.axes[].homed", all, 45)
+    home(server, board)
     part(view, "mesh-probe").click()
     wait_board(server, board, "move.compensation.type", "mesh", 60)
     wait_text(part(view, "mesh-type"), "mesh")
@@ -214,8 +213,7 @@ def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):
     wait_text(part(view, "motion-workplace"), "G59.2")
     board.board.execute("G54", channel="http")
     # a move has a speed while it lasts
-    board.board.execute("G28", channel="http")
-    wait_board(server, board, "move.axes[].homed", lambda homed: homed and all(homed), 60)
+    home(server, board)
     board.board.execute("G1 X10 F6000", channel="http")
     board.board.execute("G1 X200 F300", channel="http")
     wait_text(part(view, "motion-requested"), "5.0 mm/s")

@@ -3,7 +3,8 @@
 import pytest
 from playwright.sync_api import expect
 
-from . import board_value, part, show_view, type_number, wait_board, wait_text
+from .. import helpers
+from . import SECONDS, board_value, part, show_view, type_number, wait_board, wait_text
 
 pytestmark = pytest.mark.timeout(240)
 
@@ -17,13 +18,15 @@ def view(page, board):
 
 
 @pytest.fixture(autouse=True)
-def _as_it_was(board):
+def _as_it_was(server, board):
     yield
     board.board.execute("M5 P0", channel="http")
     with board.board.lock:
         board.board.data["state"]["machineMode"] = "CNC"
         board.board.data["move"]["currentMove"]["laserPwm"] = None
         board.board.bump("state", "move")
+    helpers.wait_value(server, "state.machineMode", "CNC", SECONDS)
+    helpers.wait_value(server, "spindles[0].state", "stopped", SECONDS)
 
 
 def test_speed_and_direction(view, server, board):
