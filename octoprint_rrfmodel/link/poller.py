@@ -48,6 +48,7 @@ class Poller:
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.polling")
         self._poll = None
         self._running = False
+        self._knows_numbers = True
         self._next_at = 0.0
         self._hurries = False
         self._queries = Queries()
@@ -65,6 +66,7 @@ class Poller:
         self._pace.connected(self._link.rate())
         self._running = True
         self._queries.open()
+        self._knows_numbers = True
         self._next_at = self._clock()
         self._link.expects_refusal = self.follower.protocol is None
 
@@ -127,10 +129,14 @@ class Poller:
 
     ##~~ what the hooks noted
 
-    def poll_sent(self, at):
-        """Note that the poll went out, and when: this note may come late."""
+    def poll_sent(self, at, number=None):
+        """Note that the poll went out, and when: this note may come late.
+
+        ``number`` is its line number, if it went out with one.
+        """
         if self._poll is not None and self._poll.sent_at is None:
             self._poll.sent_at = at
+            self._poll.number = number if self._knows_numbers else None
             self.polls += 1
 
     def poll_acknowledged(self):
@@ -149,13 +155,16 @@ class Poller:
             self.follower.not_supported()
             self._end(failed=False)
 
-    def reply(self, text):
-        """Take a reply that was found on the line."""
+    def reply(self, text, number=None):
+        """Take a reply that was found on the line; ``number`` is that of the command it answers.
+
+        One to another command than the poll isn't the poll's, whatever it looks like.
+        """
         self.bytes += len(text)
         poll = self._poll
         if poll is None or poll.sent_at is None or poll.answered:
             return
-        if text != NO_BUFFERS and not text.startswith(poll.request.begins):
+        if not poll.may_be_answered_by(text, number):
             return
         if poll.is_card:
             self._take_page(poll, text)
@@ -242,6 +251,8 @@ class Poller:
             self._time_out(poll)
 
     def _time_out(self, poll):
+        # if only the number spoke against it, it is not what it was taken for
+        self._knows_numbers = self._knows_numbers and not poll.answered_others
         if poll.is_card:
             self._card.failed()
         elif poll.query is None:

@@ -1,0 +1,149 @@
+"""The poller on a board that answers at once, with a clock that only a test turns."""
+
+import pytest
+
+pytest.importorskip("octoprint")
+
+from octoprint_rrfmodel.link.known import Known
+from octoprint_rrfmodel.link.poller import ANSWER_SECONDS, Poller
+from octoprint_rrfmodel.rrf.follow.follower import LIVE_ROOT, Follower
+from octoprint_rrfmodel.rrf.wire.line import find_reply
+
+from ..rrf.board import Board
+
+MOST_POLLS = 120
+
+
+class Line:
+    """A link that is free, and notes what it is asked."""
+
+    expects_refusal = False
+    settled_at = target_command_at = 0.0
+
+    def __init__(self):
+        self.asked = []
+        self.streams = False
+
+    def ask(self, request):
+        self.asked.append(request)
+
+    def blocked(self):
+        return None
+
+    def rate(self):
+        return 0
+
+    def is_streaming_a_print(self):
+        return self.streams
+
+
+class NoCard:
+    """A card that there is nothing to ask about."""
+
+    behind = False
+
+    def next_request(self):
+        return None
+
+
+class Rig:
+    """The poller with all that it asks, and the board at the other end of the line."""
+
+    def __init__(self, board=None):
+        self.now = 100.0
+        self.number = 0
+        self.taken = []
+        self.board = board or Board()
+        self.line, self.follower = Line(), Follower()
+        self.known = Known(self.follower, self.line, lambda: self.now)
+        self.poller = Poller(
+            self.follower,
+            NoCard(),
+            self.line,
+            known=self.known,
+            replied=lambda taken, asked_at: self.taken.append(taken),
+            clock=lambda: self.now,
+        )
+        self.poller.identified()
+
+    def send(self):
+        """Let time pass until the next poll goes out; return its request."""
+        count = len(self.line.asked)
+        while len(self.line.asked) == count:
+            wait = self.poller.tick()
+            if len(self.line.asked) == count:
+                self.now += max(wait, 0.01)
+        self.number += 1
+        self.poller.poll_sent(self.now, self.number)
+        return self.line.asked[-1]
+
+    def hear(self, text):
+        """Take a line of the board's, as the hook does."""
+        found = find_reply(text)
+        self.poller.reply(found.reply, found.number)
+
+    def ok(self):
+        self.poller.poll_acknowledged()
+
+    def serve(self, polls=1):
+        for _ in range(polls):
+            request = self.send()
+            self.hear(self.board.reply(request))
+            self.ok()
+
+    def ready(self):
+        for _ in range(MOST_POLLS):
+            self.serve()
+            if self.follower.ready and not self.follower.behind:
+                return self
+        raise AssertionError("not ready")
+
+
+@pytest.fixture
+def rig():
+    return Rig().ready()
+
+
+def numbered(text, number):
+    return f'{{"line":{number},{text[1:]}'
+
+
+def test_number_tells_an_answer_to_another_command_from_the_polls(rig):
+    request = rig.send()
+    assert request == LIVE_ROOT
+    revision = rig.follower.store.revision
+    rig.board.set("state.status", "busy")
+    text = rig.board.reply(request)
+    # as of a poll that was given up, or of what somebody typed
+    rig.hear(numbered(text, rig.number - 1))
+    assert rig.follower.store.revision == revision
+    rig.hear(numbered(text, rig.number))
+    assert rig.follower.store.model["state"]["status"] == "busy"
+
+
+def test_answer_without_a_number_is_taken_as_ever(rig):
+    rig.board.set("state.status", "busy")
+    rig.serve()
+    assert rig.follower.store.model["state"]["status"] == "busy"
+
+
+def test_answer_to_the_poll_is_the_same_wherever_the_number_stands(rig):
+    for step, put in enumerate((numbered, lambda text, number: f'{text[:-1]},"line":{number}}}')):
+        rig.board.set("state.displayMessage", str(step))
+        request = rig.send()
+        rig.hear(put(rig.board.reply(request), rig.number))
+        rig.ok()
+        rig.serve(3)
+        assert rig.follower.store.model == rig.board.model
+
+
+def test_numbers_that_are_not_the_hosts_blind_nobody(rig):
+    request = rig.send()
+    rig.hear(numbered(rig.board.reply(request), 7777))
+    rig.now += ANSWER_SECONDS + 1
+    rig.board.set("state.status", "busy")
+    for _ in range(4):
+        request = rig.send()
+        rig.hear(numbered(rig.board.reply(request), 7777))
+        rig.ok()
+    assert rig.follower.store.model["state"]["status"] == "busy"
