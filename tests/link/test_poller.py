@@ -7,6 +7,7 @@ pytest.importorskip("octoprint")
 from octoprint_rrfmodel.link.known import Known
 from octoprint_rrfmodel.link.poller import ANSWER_SECONDS, Poller
 from octoprint_rrfmodel.rrf.follow.follower import LIVE_ROOT, Follower
+from octoprint_rrfmodel.rrf.follow.live import LIVE_KEYS
 from octoprint_rrfmodel.rrf.wire.line import find_reply
 
 from ..rrf.board import Board
@@ -147,3 +148,88 @@ def test_numbers_that_are_not_the_hosts_blind_nobody(rig):
         rig.hear(numbered(rig.board.reply(request), 7777))
         rig.ok()
     assert rig.follower.store.model["state"]["status"] == "busy"
+
+
+def alarm(rig, path, value):
+    """Let something be wrong from now on; return the seconds until the model says so."""
+    rig.line.streams = True
+    rig.serve(2)
+    rig.board.set(path, value)
+    before = rig.follower.store.model
+    request = rig.send()
+    since = rig.now
+    rig.hear(rig.board.reply(request))
+    rig.ok()
+    if rig.follower.store.model is before:
+        rig.serve()
+    return rig.now - since
+
+
+def test_fault_is_asked_for_again_at_once_also_beside_a_print(rig):
+    rig.board.model["heat"]["heaters"][1]["state"] = "active"
+    rig.board.bump("heat")
+    rig.serve(8)
+    count = len(rig.taken)
+    assert alarm(rig, "heat.heaters[1].state", "fault") < 0.5
+    assert rig.follower.store.model["heat"]["heaters"][1]["state"] == "fault"
+    # nobody was told of the first answer: two before it and the one that is believed
+    assert len(rig.taken) == count + 3
+
+
+def test_fault_that_the_firmware_says_itself_needs_no_second_answer(rig):
+    rig.board.model["heat"]["heaters"][1]["state"] = "active"
+    rig.board.bump("heat")
+    rig.serve(8)
+    rig.poller.heard("fault")
+    assert alarm(rig, "heat.heaters[1].state", "fault") == 0
+
+
+def short_of_room(rig, streams=False):
+    """Let there be no room for the live root from now on."""
+    rig.board.rooms = {"": len(rig.board.reply(LIVE_ROOT)) - 20}
+    rig.line.streams = streams
+    rig.serve(3 + len(LIVE_KEYS))
+    return rig
+
+
+@pytest.mark.parametrize("streams", [False, True])
+def test_parts_are_asked_one_behind_the_other(rig, streams):
+    short_of_room(rig, streams)
+    asked = len(rig.line.asked)
+    since = rig.now
+    rig.serve(40)
+    rounds = sum(request.key == "state" for request in rig.line.asked[asked:])
+    assert rounds >= 3
+    # as often as whole answers would come
+    assert (rig.now - since) / rounds < (2.5 if streams else 1.5)
+
+
+@pytest.mark.parametrize("streams", [False, True])
+def test_fault_among_parts_is_known_as_soon_as_among_whole_answers(rig, streams):
+    rig.board.model["heat"]["heaters"][1]["state"] = "active"
+    rig.board.bump("heat")
+    rig.serve(8)
+    short_of_room(rig, streams)
+    rig.board.set("heat.heaters[1].state", "fault")
+    since = rig.now
+    while rig.follower.store.model["heat"]["heaters"][1]["state"] != "fault":
+        rig.serve()
+    assert rig.now - since < 3
+
+
+def test_age_is_that_of_the_oldest_part(rig):
+    short_of_room(rig)
+    assert rig.known.age() < 2
+    # one of them is answered no more
+    rig.board.rooms["heat"] = 0
+    since = rig.now
+    while rig.now < since + 30:
+        rig.serve()
+    assert rig.known.age() > 25
+    assert rig.known.asked_at < since + 2
+    assert rig.poller.is_stale()
+    rig.board.rooms = {}
+    rig.serve(30)
+    assert rig.known.age() < 2
+    assert not rig.poller.is_stale()
+    assert rig.line.asked[-1] == LIVE_ROOT

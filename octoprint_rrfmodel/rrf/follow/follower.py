@@ -14,7 +14,8 @@ from ..model.store import ModelStore
 from ..wire.live_reader import LiveReader
 from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
 from ..wire.request import LIVE_FLAGS, ModelRequest, Request
-from .poll import ModelPlan, Update
+from .doubts import Doubts
+from .poll import ModelPlan
 from .poll408 import StatusPlan
 
 LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
@@ -30,6 +31,8 @@ class Taken(NamedTuple):
     """What changed, by top-level key; see ``merge.Changes``."""
     reset: bool
     """Whether it showed that the board had been reset; the model then begins anew."""
+    is_doubted: bool = False
+    """Whether it tells of something bad for the first time: it doesn't count, ask again at once."""
 
 
 class Follower:
@@ -48,6 +51,7 @@ class Follower:
     def _start(self) -> None:
         self._plan: ModelPlan | StatusPlan = ModelPlan()
         self._reader = LiveReader()
+        self._doubts = Doubts()
         self._unanswered = 0
         self._unconfirmed: dict[Request, tuple[str, ...]] = {}
 
@@ -60,6 +64,16 @@ class Follower:
     def behind(self) -> bool:
         """Whether there is more to ask than live values."""
         return self._plan.behind
+
+    @property
+    def is_amid(self) -> bool:
+        """Whether what is asked next belongs to what has just come, and is to follow at once."""
+        return self._plan.is_amid
+
+    @property
+    def live_keys(self) -> tuple[str, ...]:
+        """The keys by which live values come one by one, none where they come as a whole."""
+        return self._plan.live_keys
 
     @property
     def short_of_buffers(self) -> int:
@@ -92,21 +106,34 @@ class Follower:
             self.protocol = "M409" if isinstance(reply, ModelReply) else "M408"
             self._unanswered = 0
             self.is_mute = False
-            changes: dict[str, Any] = {}
-            for update in self._plan.take(reply):  # type: ignore[arg-type]
-                changes.update(self._apply(update))
+            updates = self._plan.take(reply)  # type: ignore[arg-type]
+            model, changes = self.store.merged(updates)
         except (MalformedReply, NestedTooDeep) as error:
             self.counters["malformed"] += 1
             self._reader.forget()
             self._failed()
             raise MalformedReply(str(error)) from None
+        is_doubted = self._doubts.is_doubtful(self.store.model, model)
+        if is_doubted or any(update.path for update in updates):
+            # the last live reply isn't what the model has
+            self._reader.forget()
+        if is_doubted:
+            self._plan.again(updates)
+            return Taken({}, False, True)
+        self.store.keep(model)
         self._confirm(request, foreign_strings(text))
-        if self._plan.observe(self.store.model):
+        if self._doubts.is_reset(model):
             self.resets += 1
+            self._plan.restart()
             self.store.forget()
             self._reader.forget()
             return Taken(changes, True)
+        self._plan.observe(model)
         return Taken(changes, False)
+
+    def told(self) -> None:
+        """Note that the firmware has said by itself that something is wrong: believe it at once."""
+        self._doubts.told()
 
     def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
         """Ask for a key again until its letters beyond ASCII come twice the same.
@@ -170,13 +197,6 @@ class Follower:
         if isinstance(reply, ModelReply) and answers(reply, request):
             self._reader.remember(text)
         return reply
-
-    def _apply(self, update: Update) -> dict[str, Any]:
-        if update.path:
-            # the key's live members may now be other than the last live reply said
-            self._reader.forget()
-            return self.store.replace(update.path, update.value)
-        return self.store.patch(update.value)
 
 
 def answers(reply: ModelReply | StatusReply | NoBuffers, request: Request) -> bool:
