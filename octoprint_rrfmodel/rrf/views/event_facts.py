@@ -11,10 +11,10 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from .filament_monitors import FEEDING
 from .job import PRINTING, WITHOUT_JOB, progress
 from .machine import mapping
 from .state_words import MONITORS, STATUSES, known
-from .warnings import FEEDING
 
 Model = Mapping[str, Any]
 
