@@ -196,7 +196,7 @@ class Poller:
         else:
             goes_on = self.follower.is_amid
             self._pace.answered(len(text), self._clock() - asked_at, goes_on)
-        if text != NO_BUFFERS:
+        if text != NO_BUFFERS or taken.changes:
             if taken.is_doubted:
                 self.hurry()
             else:

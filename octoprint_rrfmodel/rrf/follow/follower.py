@@ -7,6 +7,7 @@ Belongs to one thread; ``store.model`` may be read by any.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ..model.merge import NestedTooDeep
@@ -15,7 +16,7 @@ from ..wire.live_reader import LiveReader
 from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
 from ..wire.request import LIVE_FLAGS, ModelRequest, Request
 from .doubts import Doubts
-from .poll import ModelPlan
+from .poll import ModelPlan, Update
 from .poll408 import StatusPlan
 
 LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
@@ -61,6 +62,11 @@ class Follower:
         return self._plan.ready
 
     @property
+    def too_large(self) -> tuple[str, ...]:
+        """What the board has no room to tell; it is asked for rarely."""
+        return self._plan.too_large.paths
+
+    @property
     def behind(self) -> bool:
         """Whether there is more to ask than live values."""
         return self._plan.behind
@@ -94,9 +100,10 @@ class Follower:
             reply = self._decode(text, request)
             if isinstance(reply, NoBuffers):
                 self.counters["out_of_buffers"] += 1
-                self._plan.no_buffers()
+                updates = self._plan.no_buffers()
+                model, changes = self.store.merged(updates)
                 self._begin_if_exhausted()
-                return Taken({}, False)
+                return self._taken(updates, model, changes)
             if not answers(reply, request):
                 if isinstance(reply, ModelReply) and isinstance(self._plan, StatusPlan):
                     # it was only late, or somebody else asked: the board has M409 after all
@@ -113,7 +120,14 @@ class Follower:
             self._reader.forget()
             self._failed()
             raise MalformedReply(str(error)) from None
-        is_doubted = self._doubts.is_doubtful(self.store.model, model)
+        taken = self._taken(updates, model, changes)
+        if not taken.is_doubted and not taken.reset:
+            self._confirm(request, foreign_strings(text))
+        return taken
+
+    def _taken(self, updates: list[Update], model: Mapping[str, Any], changes: Any) -> Taken:
+        """Take a model that a reply has led to, unless it is doubtful."""
+        is_doubted = self._doubts.is_doubtful(self.store.model, model) if updates else False
         if is_doubted or any(update.path for update in updates):
             # the last live reply isn't what the model has
             self._reader.forget()
@@ -121,7 +135,6 @@ class Follower:
             self._plan.again(updates)
             return Taken({}, False, True)
         self.store.keep(model)
-        self._confirm(request, foreign_strings(text))
         if self._doubts.is_reset(model):
             self.resets += 1
             self._plan.restart()

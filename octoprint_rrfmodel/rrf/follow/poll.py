@@ -9,12 +9,16 @@ from ..wire.reply import ModelReply
 from ..wire.request import LIVE_FLAGS, OUTLINE_FLAGS, ModelRequest, Request
 from .fetch import Fetch
 from .live import LIVE_KEYS, SEQS, LiveRound
+from .too_large import TooLarge
 
 FIRST = ("state", "boards", "heat", "tools", "move", "job", "fans", "sensors", "inputs")
 """Fetched before the others, so that a page has something to show early."""
 
 FETCHES_BETWEEN_LIVE = 4
 """Keys fetched in a row before a live reply is due again."""
+
+WHOLE_EVERY = 4
+"""A key that was asked for in parts is tried as a whole again each so many times."""
 
 PATIENCE = 3
 """Failures of one key in a row before the next one gets its turn."""
@@ -49,6 +53,9 @@ class ModelPlan:
         self._fetch: Fetch | None = None
         self._asks_live = False
         self._live = LiveRound()
+        self.too_large = TooLarge()
+        self._split: dict[str, int] = {}
+        self._refused = 0
         self._since_live = 0
         self._failures = 0
         self._short = 0
@@ -93,7 +100,7 @@ class ModelPlan:
         if not self._asks_live:
             if self._fetch is None:
                 key = self._wanted[0]
-                self._fetch = Fetch(key)
+                self._fetch = self._new_fetch(key)
                 self._asked[key] = self._counter(key)
             return self._fetch.request
         return self._live.request(self._fetched)
@@ -110,6 +117,8 @@ class ModelPlan:
         if self._fetch is not None and not self._asks_live:
             return self._take_key(self._fetch, reply)
         self._since_live = 0
+        for key in self.too_large.tick():
+            self._want(key)
         members = self._live.take(reply)
         return [] if members is None else [Update("", members)]
 
@@ -132,20 +141,57 @@ class ModelPlan:
             self._live.failed()
             self._since_live = 0
 
-    def no_buffers(self) -> None:
-        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests."""
+    def no_buffers(self) -> list[Update]:
+        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests.
+
+        Returns what a key's last member that can't be had leaves of it.
+        """
         self._request = None
+        fetch = None if self._asks_live else self._fetch
         if self._asks_live and self._live.is_trial:
             self._live.no_room()
-            return
+            return []
+        if fetch is not None and fetch.path in self.too_large:
+            return self._go_without(fetch)
+        if fetch is not None and fetch.key in self._split and fetch.split():
+            return []
         self._short += 1
         if self._short < 2:
-            return
-        if self._fetch is not None and not self._asks_live:
-            if not self._fetch.split():
-                self.failed()
-        elif self._keys is not None and not self._live.no_room():
+            return []
+        if fetch is not None:
+            if fetch.split():
+                self._split[fetch.key] = 0
+                return []
+            return self._has_no_room(fetch)
+        # where there is no room for anything no key is to blame
+        self._refused = 0
+        if self._keys is not None and not self._live.no_room():
             self.failed()
+        return []
+
+    def _has_no_room(self, fetch: Fetch) -> list[Update]:
+        """Note that a part of a key that can't be split has no room; live values tell who has."""
+        self._refused += 1
+        self._since_live = FETCHES_BETWEEN_LIVE
+        self._short = 0 if self._refused > 1 else self._short
+        return self._go_without(fetch) if self._refused >= PATIENCE else []
+
+    def _go_without(self, fetch: Fetch) -> list[Update]:
+        self._refused = self._short = 0
+        self.too_large.note(fetch.path)
+        if fetch.path != fetch.key:
+            return self._finished(fetch) if fetch.skip() else []
+        self._fetch = None
+        self._wanted.remove(fetch.key)
+        self._fetched.add(fetch.key)
+        return []
+
+    def _new_fetch(self, key: str) -> Fetch:
+        """Return what asks for a key: in parts at once where that was needed last."""
+        in_parts = key in self._split and self._split[key] % WHOLE_EVERY < WHOLE_EVERY - 1
+        if key in self._split:
+            self._split[key] += 1
+        return Fetch(key, in_parts=in_parts, without=self.too_large.resting_of(key))
 
     def again(self, updates: list[Update]) -> None:
         """Note that what was just taken doesn't count: live values tell it again, and first."""
@@ -169,6 +215,7 @@ class ModelPlan:
         """Want a key again, or every one."""
         for name in self._keys or ():
             if key in ("", name):
+                self.too_large.wake(name)
                 self._want(name)
 
     def _take_outline(self, outline: Any) -> list[Update]:
@@ -182,8 +229,11 @@ class ModelPlan:
         return []
 
     def _take_key(self, fetch: Fetch, reply: ModelReply) -> list[Update]:
-        if not fetch.take(reply):
-            return []
+        self._refused = 0
+        return self._finished(fetch) if fetch.take(reply) else []
+
+    def _finished(self, fetch: Fetch) -> list[Update]:
+        self.too_large.came(fetch.key, fetch.left_out)
         self._fetch = None
         self._wanted.pop(0)
         self._fetched.add(fetch.key)
@@ -193,7 +243,7 @@ class ModelPlan:
         return [Update(fetch.key, fetch.value)]
 
     def _want(self, key: str) -> None:
-        if key not in self._wanted:
+        if key not in self._wanted and not self.too_large.rests(key):
             self._wanted.append(key)
 
     def _counter(self, key: str) -> Any:

@@ -9,6 +9,7 @@ from ..wire.m408 import M408Model
 from ..wire.reply import StatusReply
 from ..wire.request import Request, StatusRequest
 from .poll import Update
+from .too_large import TooLarge
 
 FORMS = (2, 3, 5, 4, 1, 0)
 """The forms, the most telling first; 3.6 has the last two alone, 3.7 none."""
@@ -31,6 +32,7 @@ class StatusPlan:
     def restart(self) -> None:
         """Begin anew, as with a board that was reset."""
         self._model = M408Model()
+        self.too_large = TooLarge()
         self._form: int | None = None
         self._taken: int | None = None
         self._untried = list(FORMS)
@@ -108,9 +110,10 @@ class StatusPlan:
             waiting.pop(0)
             self._failures = 0
 
-    def no_buffers(self) -> None:
+    def no_buffers(self) -> list[Update]:
         """As ``failed``."""
         self.failed()
+        return []
 
     def again(self, updates: list[Update]) -> None:
         """Note that what was just taken doesn't count, and ask the same again."""

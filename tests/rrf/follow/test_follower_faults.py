@@ -128,7 +128,15 @@ def test_key_that_never_fits_lets_the_others_have_their_turn():
     others = {key: value for key, value in board.model.items() if key != "move"}
     known = {key: value for key, value in follower.store.model.items() if key != "move"}
     assert known == others
-    assert not follower.ready
+    # said to be so, and asked for rarely
+    assert follower.ready
+    assert not follower.behind
+    assert follower.too_large == ("move",)
+    asked = len(board.asked)
+    for _ in range(200):
+        serve(follower, board)
+    assert 1 <= board.keys_asked(asked).count("move") <= 5
+    assert follower.short_of_buffers == 0
     board.set("heat.heaters[0].max", 5.0)
     board.set("state.status", "busy")
     for _ in range(60):
@@ -136,6 +144,35 @@ def test_key_that_never_fits_lets_the_others_have_their_turn():
     assert follower.store.model["heat"] == board.model["heat"]
     board.rooms = {}
     settle(follower, board, 90)
+
+
+@pytest.mark.parametrize("path", ["global", "global.big"])
+def test_member_that_never_fits_is_left_out_and_the_rest_is_there(path):
+    board = Board()
+    board.model["global"] = {"big": {"x": {"y": "z" * 500}}, "mine": [1, {"a": None}], "n": 5}
+    follower = Follower()
+    board.rooms = {"global": 0 if path == "global" else 150, "global.big": 0}
+    serve(follower, board, 90)
+    assert follower.ready
+    assert not follower.behind
+    assert follower.too_large == (path,)
+    expected = {**board.model, "global": {"mine": [1, {"a": None}], "n": 5}}
+    if path == "global":
+        del expected["global"]
+    assert follower.store.model == expected
+    # all else goes on as if it weren't there, however often it changes
+    asked = len(board.asked)
+    for number in range(100):
+        board.bump("global")
+        board.set("state.displayMessage", str(number))
+        serve(follower, board, 3)
+    serve(follower, board, 5)
+    assert follower.store.model["state"]["displayMessage"] == "99"
+    assert board.keys_asked(asked).count(path) <= 8
+    board.rooms = {}
+    follower.refetch("global")
+    settle(follower, board, 90)
+    assert follower.too_large == ()
 
 
 def test_live_part_that_never_fits_lets_the_others_have_their_turn():
