@@ -73,6 +73,8 @@ class Poller:
         """Poll no more and know nothing: the connection is gone."""
         self._running = False
         self._queries.close()
+        if self._poll is not None and not self._poll.answered:
+            self._count("timeouts" if self._poll.sent_at is not None else None)
         if self._poll is not None and self._poll.query is not None:
             fail(self._poll.query, GONE)
         self._poll = None
@@ -151,6 +153,7 @@ class Poller:
         if not is_model or not NOT_KNOWN.search(line.lower()):
             return
         if poll.request.line.split()[0] in line:
+            self._count("replies")
             self.follower.not_supported()
             self._end(failed=False)
 
@@ -170,11 +173,13 @@ class Poller:
             if outcome == "replies":
                 self._pace.answered(len(text), self._clock() - poll.sent_at)
             poll.answered = outcome is not None
+            self._count(outcome)
             self._finish_if_over()
             return
         if poll.query is not None:
             if answer_query(poll, text):
                 poll.answered = True
+                self._count("out_of_buffers" if text == NO_BUFFERS else "replies")
                 self._finish_if_over()
             return
         asked_at = poll.sent_at
@@ -218,11 +223,17 @@ class Poller:
         if poll is None or not poll.is_about_the_card or poll.sent_at is None or poll.answered:
             return
         poll.answered = True
+        self._count("replies")
         if poll.is_card:
             self._card.failed()
         else:
             fail(poll.query, "the printer refused")
         self._finish_if_over()
+
+    def _count(self, outcome):
+        """Count what has become of a poll; the follower counts its own."""
+        if outcome is not None:
+            self.follower.counters[outcome] += 1
 
     ##~~ the poll slot
 
@@ -256,6 +267,8 @@ class Poller:
     def _time_out(self, poll):
         # if only the number spoke against it, it is not what it was taken for
         self._knows_numbers = self._knows_numbers and not poll.answered_others
+        if poll.is_card or poll.query is not None:
+            self._count("timeouts")
         if poll.is_card:
             self._card.failed()
         elif poll.query is None:

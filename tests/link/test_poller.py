@@ -233,3 +233,27 @@ def test_age_is_that_of_the_oldest_part(rig):
     assert rig.known.age() < 2
     assert not rig.poller.is_stale()
     assert rig.line.asked[-1] == LIVE_ROOT
+
+
+def test_each_poll_is_counted_once_by_what_became_of_it(rig):
+    """However it ends, and whoever asked: the model, the card or a question."""
+    for ending in ("reply", "no room", "spoilt", "silence", "gone"):
+        for is_question in (False, True):
+            if is_question:
+                rig.poller.query("heat", "d99vn")
+            request = rig.send()
+            if ending == "reply":
+                rig.hear(rig.board.reply(request))
+            elif ending == "no room":
+                rig.hear('{"err":-1}')
+            elif ending == "spoilt":
+                rig.hear(rig.board.reply(request)[:40])
+            elif ending == "silence":
+                rig.now += ANSWER_SECONDS + 1
+                rig.poller.tick()
+            if ending == "gone":
+                rig.poller.forgotten()
+                rig.poller.identified()
+            else:
+                rig.ok()
+    assert sum(rig.follower.counters.values()) == rig.poller.polls
