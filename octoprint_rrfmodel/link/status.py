@@ -42,6 +42,7 @@ class PluginStatus:
                 "rewritten": link.rewritten,
                 **follower.counters,
             },
+            "too_large": list(follower.too_large),
             "warnings": self._warnings(),
             "first_run": self._is_first_run(),
         }

@@ -18,8 +18,9 @@ ATTENDED = TELLING | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
 class ReceivedLines:
     """Takes the board's JSON out of what OctoPrint hears, and finds out whose board it is.
 
-    ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
-    ``identified``, ``halted`` and ``heard`` (what); it must only take note and return.
+    ``notify(name, *arguments)`` is called with ``reply`` (text, number),
+    ``refused`` (line), ``identified``, ``halted`` and ``heard`` (what); it must only take note and
+    return.
     ``card.reword(line)`` gives a line in words that OctoPrint knows, ``card.fill()`` one in the
     place of a line that was the plugin's alone. ``guards(error)`` says whether a serious error
     only pauses the print.
@@ -71,7 +72,7 @@ class ReceivedLines:
         found = find_reply(line)
         if found is None or (found.is_of_a_file and not link.asks_of_a_file):
             return line
-        self._notify("reply", found.reply)
+        self._notify("reply", found.reply, found.number)
         if not found.rest:
             return self._card.fill()
         if found.rest.startswith("ok"):

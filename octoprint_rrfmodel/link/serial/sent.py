@@ -9,10 +9,10 @@ from .serial_link import STATUS_REQUEST
 class SentCommands:
     """Notes what the board is about to be busy with.
 
-    ``notify(name, *arguments)`` is called with ``poll_sent`` (when) and ``poll_acknowledged``; it
-    must only take note and return. ``show_target(heater, target)`` shows the target that a
-    translated command sets. ``sent(cmd, tags)`` is told of commands that are neither a file's nor
-    the plugin's polls.
+    ``notify(name, *arguments)`` is called with ``poll_sent`` (when, with which line
+    number) and ``poll_acknowledged``; it must only take note and return.
+    ``show_target(heater, target)`` shows the target that a translated command sets.
+    ``sent(cmd, tags)`` is told of commands that are neither a file's nor the plugin's polls.
     """
 
     def __init__(self, link, notify, clock, *, show_target, sent):
@@ -53,5 +53,6 @@ class SentCommands:
                 self._notify("poll_acknowledged")
             else:
                 link.polled.add(cmd)
-                self._notify("poll_sent", now)
+                # the number that it gets if it gets one, in both versions of OctoPrint
+                self._notify("poll_sent", now, getattr(comm, "_current_line", None))
         return None

@@ -58,7 +58,6 @@ def followed(
     job: Job,
     printer: Printer,
     host_job: HostJob | None,
-    was_reset: bool,
     before: tuple[float | None, ...],
     seconds: float,
 ) -> Job:
@@ -66,8 +65,6 @@ def followed(
 
     ``before`` is where the extruders were at the last reply, ``seconds`` how long ago that was.
     """
-    if was_reset:
-        job = lost(job)
     job = _card(job, printer)
     if job.runs and job.source == CARD:
         return job

@@ -88,7 +88,6 @@ class Accumulated(NamedTuple):
 
     at: float | None = None
     """Time of the last reply, on the clock of ``World.eventtime``."""
-    up_time: float | None = None
     activity: str = ""
     """``printing``, ``paused``, ``idle``; empty for anything else."""
     since: float = 0.0

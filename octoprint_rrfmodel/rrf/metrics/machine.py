@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..views.filament_monitors import FEEDING
 from ..views.machine import mapping
 from ..views.state_words import MONITORS, SPINDLES, STATUSES, TOOLS
-from ..views.warnings import FEEDING
 from .metric import (
     GAUGE,
     Metric,

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Callable, NamedTuple
 
 from .machine import array, mapping
+from .sensor_kinds import DEGREES, is_thermometer, other_reading, unit_of
 from .temperatures import ABSOLUTE_ZERO, BAD_READING, TARGET_OF_STATE
 
 INTERVAL_SECONDS = 2.0
@@ -70,6 +71,11 @@ def _target(heater: Mapping[str, Any]) -> float | None:
     return _temperature(heater.get(TARGET_OF_STATE.get(str(heater.get("state")), "")))
 
 
+def _sensor(sensor: Mapping[str, Any]) -> float | None:
+    find = _temperature if is_thermometer(sensor) else other_reading
+    return find(sensor.get("lastReading"))
+
+
 def _share(value: Any) -> float | None:
     return float(value) if type(value) in (int, float) and 0 <= value <= 1 else None
 
@@ -78,11 +84,8 @@ KINDS = (
     Kind("heater", "current", 2, lambda heater: _temperature(heater.get("current"))),
     Kind("heater", "target", 2, _target),
     Kind("heater", "pwm", 3, lambda heater: _share(heater.get("avgPwm"))),
-    Kind("sensor", "current", 2, lambda sensor: _temperature(sensor.get("lastReading"))),
+    Kind("sensor", "current", 2, _sensor),
 )
-
-OTHER_UNITS = (("humidity", "%"), ("pressure", ""), ("linear", ""), ("voltage", "V"))
-"""Part of a sensor's type and its unit; all others tell degrees."""
 
 
 class History:
@@ -193,5 +196,4 @@ def _name(kind: Kind, thing: Mapping[str, Any]) -> str:
 def _unit(kind: Kind, thing: Mapping[str, Any]) -> str:
     if kind.what == "pwm":
         return ""
-    of_type = str(thing.get("type", "")).lower() if kind.kind == "sensor" else ""
-    return next((unit for part, unit in OTHER_UNITS if part in of_type), "°C")
+    return unit_of(thing) if kind.kind == "sensor" else DEGREES

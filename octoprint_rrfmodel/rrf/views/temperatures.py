@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from .sensor_kinds import is_thermometer
+
 Temperature = tuple[Any, Any]
 """Current value and target in degrees Celsius; ``None`` where there is none."""
 
@@ -13,8 +15,10 @@ ABSOLUTE_ZERO = -273.0
 BAD_READING = 1999.0
 """The firmware shows -273.15 for a sensor that has none, 2000 for one that is broken."""
 
-RESERVED = re.compile(r"B\d*|C\d*|T\d*")
-"""Names that a temperature report gives to beds, chambers and tools."""
+RESERVED = re.compile(r"(?:[a-z]|bed|chamber|tool|time)[\d_]*|_+.*", re.IGNORECASE)
+"""Names that are the host's own, with any number, whatever the letters' case. A temperature report
+has single letters for beds, chambers and tools; OctoPrint puts sensors among its own members:
+words for the same, and ``time``, which is no temperature. A test asks OctoPrint for them."""
 
 TARGET_OF_STATE = {"active": "active", "tuning": "active", "standby": "standby"}
 
@@ -35,7 +39,8 @@ def temperatures(model: Mapping[str, Any]) -> Temperatures:
 
     The first slot with a heater is the bed, the chamber; further ones are called ``B1``, ``C1``
     as in the firmware's own report (3.5 GCodes.cpp:4811). Sensors keep their names unless they
-    are reserved or there twice.
+    could be the host's own (``RESERVED``) or are there twice; those that measure no temperature
+    are left out.
     """
     heat = _object(model.get("heat"))
     heaters = _array(heat.get("heaters"))
@@ -88,6 +93,8 @@ def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tupl
     for number, sensor in enumerate(sensors):
         reading = _object(sensor).get("lastReading")
         if number in used or not isinstance(reading, (int, float)):
+            continue
+        if not is_thermometer(sensor):
             continue
         # a host keeps each name that it was ever told, so that one not yet known has to wait
         if ABSOLUTE_ZERO < reading < BAD_READING and "name" in sensor:

@@ -14,6 +14,7 @@ WORDS = (
     ("fault", r"Heater \d+ fault"),  # 3.3 LocalHeater.cpp:743
     ("fault", r"^- (?:Printing paused|Event notification) -"),  # 3.4 and later
     ("fault", r"Driver [\d.]+ error"),
+    ("fault", r"^Error: .* on drivers? \d"),  # 3.3 Platform.cpp, ReportDrivers
     ("fault", r"Filament error on"),
     ("fault", r"^Emergency Stop!"),  # 3.5 GCodes2.cpp, M112
     ("fault", r"VIN under-voltage"),  # 3.5 Platform.cpp:1396

@@ -104,6 +104,7 @@ SEQUENCES = {
     "status that is no text": ([state(status="idle"), state(status=["secret"])], []),
     # reset
     "reset": ([state(upTime=100), {}, state(upTime=1)], [("firmware_reset", {})]),
+    "up-time that was spoilt once": ([state(upTime=17), state(upTime=97), state(upTime=19)], []),
     "up-time goes on": ([state(upTime=100), state(upTime=100), state(upTime=101)], []),
     "up-time that is no number": ([state(upTime=100), state(upTime="1"), state(upTime=101)], []),
     "status goes on over a reset": (
