@@ -35,6 +35,9 @@ class SentCommands:
         if gcode is None:
             gcode = "" if cmd.startswith(HOSTS_OWN) else name_of(cmd)
             if not gcode:
+                # OctoPrint's own, or nothing: no board answers it
+                if tags and FILE_TAG not in tags:
+                    self._sent(cmd, tags)
                 return None
             count_ok(comm)
         if link.awaited is not None:
