@@ -96,7 +96,7 @@ class Assembly:
             host.printer,
             self.link,
             self._known.machine,
-            failed=self._notifications.did_not_come_back,
+            notifications=self._notifications,
         )
         self._warnings = WarningList(
             model,
@@ -184,13 +184,13 @@ class Assembly:
         )
 
     def _make_hooks(self):
-        host, notify = self._host, self.worker.notify
+        host, notify, machine = self._host, self.worker.notify, self._known.machine
         refused = partial(notify, "refused_operation")
         is_translated = partial(host.is_set, "operations")
-        operations = OperationTranslator(self._known.machine, is_translated, refused)
-        unsendable = UnsendableCommands(
-            self._known.machine, is_translated, refused, paused=partial(notify, "print_waits")
-        )
+        profile = self.link.profile
+        operations = OperationTranslator(machine, is_translated, refused, profile=profile)
+        paused = partial(notify, "print_waits")
+        unsendable = UnsendableCommands(machine, is_translated, refused, paused=paused)
         self.display = Display(self.link, self._known, self._poller.is_stale, fire=host.fire)
         self.received = ReceivedLines(self.link, self._card, notify, guards=self._guard.handles)
         self.queued = QueuedCommands(

@@ -5,19 +5,22 @@ import threading
 
 from flask_babel import gettext
 
+from ..rrf.gcode.doing import OTHER
+from ..rrf.views.machine import STOPS_AT_ONCE
+
 
 class Recovery:
     """Restarts the board, one restart at a time; any thread may ask for one.
 
     ``printer()`` is OctoPrint's, ``link`` reaches the board, ``machine()`` is the view of the
-    model. ``failed()`` is called when the board didn't come back.
+    model. ``notifications`` tell when the board didn't come back, or doesn't stop yet.
     """
 
-    def __init__(self, printer, link, machine, *, failed):
+    def __init__(self, printer, link, machine, *, notifications):
         self._printer = printer
         self._link = link
         self._machine = machine
-        self._failed = failed
+        self._notifications = notifications
         self._lock = threading.Lock()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.recovery")
         self.is_wanted = False
@@ -34,9 +37,15 @@ class Recovery:
         if self._machine().is_halted:
             self.halted()
 
-    def halted(self):
-        """Note that the board was stopped, and OctoPrint may have hung up on it."""
+    def halted(self, doing=None):
+        """Note that the board was stopped, and OctoPrint may have hung up on it.
+
+        Tell if that has to wait for what the line was ``doing``.
+        """
         self.is_wanted = True
+        is_long = doing is not None and doing.what != OTHER
+        if is_long and self._machine().version < STOPS_AT_ONCE:
+            self._notifications.tell("stop_waits", doing.command)
 
     ##~~ any thread
 
@@ -61,6 +70,6 @@ class Recovery:
             self._link.restart()
         except Exception:
             self._logger.exception("Could not restart the board")
-            self._failed()
+            self._notifications.did_not_come_back()
         finally:
             self._lock.release()

@@ -35,8 +35,12 @@ class Known:
         return self._follower.ready
 
     def is_current(self):
-        """Return whether the model is newer than all that could have changed the machine."""
-        return self.asked_at > self._link.settled_at and not self._follower.behind
+        """Return whether the model is newer than all that could have changed the machine.
+
+        It isn't while something that could is queued or under way.
+        """
+        is_newer = self.asked_at > self._link.settled_at and not self._follower.behind
+        return is_newer and not self._link.is_changing()
 
     def heat(self):
         """Return what the model says of heat, ``None`` while it says nothing, and of its targets

@@ -103,6 +103,10 @@ class Link(abc.ABC):
     def doing(self):
         """Return the command that the line waits for (``Doing``), ``None`` for none."""
 
+    def is_changing(self):
+        """Return whether a command that may home, heat or choose tools waits or is under way."""
+        return False
+
     @abc.abstractmethod
     def has_polled(self, command):
         """Return whether a command in OctoPrint's log was a poll, of earlier connections too."""

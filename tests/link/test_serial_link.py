@@ -109,3 +109,27 @@ def test_nobody_else_asks_octoprint_for_its_connection():
         if "link.connection." in path.read_text("utf-8")
     }
     assert {path for path in asking if not path.startswith("link/serial/")} == set()
+
+
+@pytest.mark.parametrize(
+    "cmd, gcode, waits",
+    [
+        ("X20 Y5", None, True),
+        ("g1 x5", None, True),
+        ("N10 G1 X5", None, True),
+        ("echo 1", None, True),
+        ("T-1", None, True),
+        ("@pause", None, False),
+        ("Q0", None, False),
+        # OctoPrint counts that by itself
+        ("G1 X5", "G1", False),
+    ],
+)
+@pytest.mark.parametrize("setting", [False, True])
+def test_waits_for_what_octoprint_takes_for_no_command(rig, cmd, gcode, waits, setting):
+    cleared = []
+    rig.comm._clear_to_send = SimpleNamespace(clear=lambda: cleared.append(cmd))
+    rig.comm._unknownCommandsNeedAck = setting
+    rig.send(cmd, gcode)
+    assert bool(cleared) == (waits and not setting)
+    assert (rig.link.awaited is not None) == (waits or gcode is not None)

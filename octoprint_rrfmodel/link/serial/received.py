@@ -56,6 +56,8 @@ class ReceivedLines:
         link = self._link
         if comm is not link.connection:
             return line
+        if line:
+            link.heard_now()
         if '{"' not in line:
             if line[:1] == "o" and link.extra_ok.awaits is None:
                 if link.awaited is not None and line.startswith("ok"):

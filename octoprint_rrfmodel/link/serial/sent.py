@@ -2,6 +2,7 @@
 
 from ...host.tags import FILE_TAG, POLL_TAG
 from ...rrf.gcode.blocking import TARGETING
+from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
 from .extra_ok import count_ok
 from .serial_link import STATUS_REQUEST
 
@@ -31,9 +32,16 @@ class SentCommands:
         link = self._link
         if comm is not link.connection:
             return None
-        if gcode is None and cmd.startswith("T"):
-            gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
+        if gcode is None:
+            gcode = "" if cmd.startswith(HOSTS_OWN) else name_of(cmd)
+            if not gcode:
+                # OctoPrint's own, or nothing: no board answers it
+                if tags and FILE_TAG not in tags:
+                    self._sent(cmd, tags)
+                return None
             count_ok(comm)
+        if link.awaited is not None:
+            link.extra_ok.given_up()
         link.awaited = gcode
         link.awaited_command = cmd
         now = link.awaited_since = self._clock()

@@ -6,12 +6,15 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 import threading
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.gcode.blocking import BLOCKING, may_change
 from ...rrf.gcode.doing import what_of
 from ...rrf.wire.gcode_words import words
 from ..link import Doing, Link
 from ..terminal import RecentPolls
 from .extra_ok import ExtraOk
+from .fitting import fit
+from .lost_ok import LostOk
+from .pending import is_change_waiting
 from .restart import Connection, restart
 
 STATUS_REQUEST = "M105"
@@ -48,6 +51,7 @@ class SerialLink(Link):
         self._clock = clock
         self._card = None
         self._last = None
+        self._lost_ok = LostOk(self, clock)
         self.polled = RecentPolls()
         self.was_identified = threading.Event()
         """Set when a board tells what it is; a restart waits for that."""
@@ -63,6 +67,8 @@ class SerialLink(Link):
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
         self.awaited_since = 0.0
+        self.heard_at = 0.0
+        """When a line last came in, of whatever kind."""
         self.asks_of_a_file = False
         self.targets = {}
         """Line that is to go out to the heater and the target that it sets."""
@@ -72,11 +78,16 @@ class SerialLink(Link):
     def is_known_now(self, comm):
         """Begin with a connection that has told that it is RepRapFirmware."""
         self.forget()
+        fit(comm)
         self.connection = comm
+
+    def heard_now(self):
+        """Note that the board has said something."""
+        self.heard_at = self._clock()
 
     def acknowledged(self, settles):
         """Note that the awaited command is through; ``settles`` if it may have changed much."""
-        if settles:
+        if settles or may_change(self.awaited or "", self.awaited_command):
             self.settled_at = self._clock()
         self.awaited = None
 
@@ -89,6 +100,10 @@ class SerialLink(Link):
         if comm is not None:
             profile = self._profiles().get_current_or_default()["id"]
             self._last = Connection(*comm.getConnection(), profile)
+
+    def tick(self):
+        """Look after an acknowledgement that doesn't come; return the seconds until then."""
+        return self._lost_ok.tick()
 
     ##~~ Link
 
@@ -120,9 +135,6 @@ class SerialLink(Link):
             if comm is not None and line.startswith(code):
                 is_first = words(line).get("P") == machine.slot(kind)
                 return line if is_first and self.profile()[part] else f"M120 {line} M121"
-        if comm is not None and line.startswith("T") and not comm._validate_tool(int(line[1:])):
-            # the model has the tool, whatever number of extruders the printer profile has
-            comm._sanity_check_tools = False
         return line
 
     @property
@@ -152,6 +164,15 @@ class SerialLink(Link):
             return None
         command = self.awaited_command
         return Doing(command, what_of(command), self.awaited_since)
+
+    def is_changing(self):
+        comm = self.connection
+        if comm is None:
+            return False
+        # told by who sends, on another thread
+        awaited = self.awaited
+        is_under_way = awaited is not None and may_change(awaited, self.awaited_command)
+        return is_under_way or is_change_waiting(comm)
 
     def has_polled(self, command):
         return command in self.polled

@@ -1,9 +1,10 @@
-"""Commands that would hang the line, dropped on their way through the queuing hook."""
+"""Commands that would hang the line, dropped or put so that they don't, in the queuing hook."""
 
 import logging
 
 from ...host.tags import FILE_TAG
 from ...rrf.gcode.operations import NOTHING, Lines
+from ...rrf.gcode.plain_lines import with_safe_stars
 from ...rrf.gcode.unsendable import text_of_box, unsendable
 
 PAUSE = Lines(("@pause",))
@@ -29,6 +30,13 @@ class UnsendableCommands:
 
         Who waits for it is told. A print pauses where a person was to act, as it does at M0.
         """
+        safe = with_safe_stars(cmd, gcode)
+        if safe is None:
+            self._logger.info("Not sending %r: its asterisk would begin a checksum", cmd)
+            self._refused("asterisk", cmd)
+            return NOTHING
+        if safe != cmd:
+            return Lines((safe,))
         row = unsendable(cmd, gcode, self._machine())
         if row is None or not self._is_on(row.name):
             return None

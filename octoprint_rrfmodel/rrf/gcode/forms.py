@@ -52,6 +52,11 @@ def extrusion_factor_line(extruder: int, percent: float) -> str:
     return f"M221 D{extruder} S{number(percent)}"
 
 
+def current_extrusion_factor_line(percent: float) -> str:
+    """Return the line that sets the factor of whatever tool will be the current one by then."""
+    return f"M221 S{number(percent)}"
+
+
 def tool_temperatures_line(
     machine: Machine,
     tool: int,

@@ -55,7 +55,7 @@ def home(machine: Machine, axes: Iterable[str] = ()) -> Outcome:
 def extrude(machine: Machine, amount: float, speed: float | None = None) -> Outcome:
     """Return one line that extrudes mm of filament; refused without a tool or with a cold one."""
     tool = machine.current_tool
-    if tool is None and machine.knows_tools:
+    if tool is None and machine.knows_tools and machine.is_current:
         return Refused("no_tool_selected")
     if tool is not None and machine.is_cold(tool):
         return Refused("too_cold", str(tool["number"]))
@@ -72,8 +72,11 @@ def select(machine: Machine, tool: int) -> Outcome:
 def heat_tool(machine: Machine, tool: int | None, target: float) -> Outcome:
     """Return the lines that heat a tool, with 0 switch it off; refused where it isn't there.
 
-    ``None`` is the one that M104 without T means.
+    ``None`` is the one that M104 without T means: only the firmware knows which that will be while
+    another is being selected.
     """
+    if tool is None and not machine.is_current:
+        return Lines((f"M104 S{number(target)}",))
     meant = machine.default_tool if tool is None else machine.tools.get(tool)
     if meant is None:
         if not machine.knows_tools:
@@ -127,9 +130,12 @@ def speed_factor(machine: Machine, percent: float) -> Outcome:
 def extrusion_factor(machine: Machine, percent: float) -> Outcome:
     """Return a line for each extruder of the current tool; refused without one.
 
-    To hosts that factor is also the flow rate.
+    To hosts that factor is also the flow rate. Which tool it will be only the firmware knows while
+    one is being selected.
     """
     tool = machine.current_tool
+    if not machine.is_current:
+        return Lines((forms.current_extrusion_factor_line(percent),))
     if tool is None:
         return Refused("no_tool_selected")
     extruders = tool.get("extruders") or ()

@@ -12,6 +12,9 @@ _VERSION = re.compile(r"(\d+)\.(\d+)(?:\.(\d+))?")
 M568_SETS_TOOLS = (3, 3)
 """From here on M568 sets a tool's temperatures and state; before, G10 and M104 do."""
 
+STOPS_AT_ONCE = (3, 6, 3)
+"""From here on M112 is acted on as it is read; before, it waits behind what the line runs."""
+
 PRINTING = ("processing", "simulating", "pausing", "resuming")
 """Words of ``state.status`` while a file on the card is under way."""
 
