@@ -8,7 +8,7 @@ import tornado.websocket
 
 from ...host.answers import RequestRefused
 from ...rrf import klipper
-from ..access import caller_of
+from ..access import WithoutKeys, caller_of
 from ..origin import is_own
 from . import jsonrpc
 from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
@@ -22,7 +22,7 @@ POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
 
 
-class PrinterSocket(tornado.websocket.WebSocketHandler):
+class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
     """One client; everything here runs on Tornado's loop and nothing waits.
 
     ``hub`` knows all sockets, ``app`` is OctoPrint's Flask application, which knows users.
