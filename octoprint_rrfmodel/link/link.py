@@ -8,7 +8,7 @@ class Doing(NamedTuple):
     """The command that the line waits for."""
 
     command: str
-    """As it went out."""
+    """As it went out, without passwords and keys."""
     what: str
     """In the public contract's words, its section 2."""
     since: float

@@ -9,6 +9,7 @@ from ...host.tags import POLL_TAG
 from ...rrf.gcode.blocking import BLOCKING, may_change
 from ...rrf.gcode.doing import what_of
 from ...rrf.wire.gcode_words import words
+from ...rrf.wire.masking import masked
 from ..link import Doing, Link
 from ..terminal import RecentPolls
 from .extra_ok import ExtraOk
@@ -163,7 +164,7 @@ class SerialLink(Link):
         if self.connection is None or self.awaited is None:
             return None
         command = self.awaited_command
-        return Doing(command, what_of(command), self.awaited_since)
+        return Doing(masked(command), what_of(command), self.awaited_since)
 
     def is_changing(self):
         comm = self.connection

@@ -6,6 +6,7 @@ from ...host.tags import FILE_TAG
 from ...rrf.gcode.operations import NOTHING, Lines
 from ...rrf.gcode.plain_lines import with_safe_stars
 from ...rrf.gcode.unsendable import text_of_box, unsendable
+from ...rrf.wire.masking import masked
 
 PAUSE = Lines(("@pause",))
 """OctoPrint's own command that pauses the print where it stands; the printer doesn't see it."""
@@ -40,7 +41,7 @@ class UnsendableCommands:
         row = unsendable(cmd, gcode, self._machine())
         if row is None or not self._is_on(row.name):
             return None
-        self._logger.info("Not sending %r: %s", cmd, row.reason)
+        self._logger.info("Not sending %r: %s", masked(cmd), row.reason)
         if row.pauses and FILE_TAG in tags:
             self._paused(text_of_box(cmd))
             return PAUSE

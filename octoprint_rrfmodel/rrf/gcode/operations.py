@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple, Union
 
-from ..views.machine import M568_SETS_TOOLS, Machine
+from ..views.machine import M568_SETS_TOOLS, Machine, array, numbers_of
 from ..wire.gcode_words import extrude_line, jog_line, number
 from . import forms
 
@@ -90,7 +90,7 @@ def heat_tool(machine: Machine, tool: int | None, target: float) -> Outcome:
 def _heat_with_m568(machine: Machine, tool: Mapping[str, Any], target: float) -> tuple[str, ...]:
     name = tool["number"]
     # the model may not tell how many heaters it has
-    active = [target] * (len(tool.get("heaters") or ()) or 1)
+    active = [target] * (len(array(tool.get("heaters"))) or 1)
     state = forms.tool_state_word("active" if target else "off")
     return (f"{forms.tool_temperatures_line(machine, name, active)} {state}",)
 
@@ -98,7 +98,7 @@ def _heat_with_m568(machine: Machine, tool: Mapping[str, Any], target: float) ->
 def _heat_with_m104(machine: Machine, tool: Mapping[str, Any], target: float) -> tuple[str, ...]:
     if not target:
         return (forms.tool_off_line(machine, tool),)
-    name, standby = tool["number"], tool.get("standby")
+    name, standby = tool["number"], numbers_of(tool.get("standby"))
     line = f"M104 T{name} S{number(target)}"
     current = machine.current_tool
     if current is not None and current["number"] == name and standby:
@@ -138,5 +138,5 @@ def extrusion_factor(machine: Machine, percent: float) -> Outcome:
         return Lines((forms.current_extrusion_factor_line(percent),))
     if tool is None:
         return Refused("no_tool_selected")
-    extruders = tool.get("extruders") or ()
-    return Lines(tuple(forms.extrusion_factor_line(extruder, percent) for extruder in extruders))
+    extruders = numbers_of(tool.get("extruders"))
+    return Lines(tuple(forms.extrusion_factor_line(int(each), percent) for each in extruders))

@@ -59,8 +59,9 @@ def temperatures(model: Mapping[str, Any]) -> Temperatures:
     for letter, slots in (("B", beds), ("C", chambers)):
         for slot, value in slots[1:]:
             others[f"{letter}{slot}"] = value
+    counts: dict[str, int] = {}
     for name, reading in _free_sensors(model, heaters):
-        others[_unused(name, others)] = (reading, None)
+        others[_unused(name, others, counts)] = (reading, None)
     return Temperatures(
         tools, beds[0][1] if beds else None, chambers[0][1] if chambers else None, others
     )
@@ -88,7 +89,8 @@ def _slots(heaters: list[Any], slots: Any) -> Iterator[tuple[int, Temperature]]:
 
 def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tuple[str, float]]:
     """Yield name and reading of each working sensor that isn't a heater's own."""
-    used = [_object(heater).get("sensor") for heater in heaters]
+    numbers = (_object(heater).get("sensor") for heater in heaters)
+    used = {number for number in numbers if isinstance(number, int)}
     sensors = _array(_object(model.get("sensors")).get("analog"))
     for number, sensor in enumerate(sensors):
         reading = _object(sensor).get("lastReading")
@@ -101,13 +103,15 @@ def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tupl
             yield str(sensor.get("name") or f"Sensor {number}"), reading
 
 
-def _unused(name: str, names: Mapping[str, Any]) -> str:
+def _unused(name: str, names: Mapping[str, Any], counts: dict[str, int]) -> str:
+    """Return a name that isn't there yet; ``counts`` is how often each was wanted before."""
     if RESERVED.fullmatch(name):
         name = f"Sensor {name}"
-    unused, count = name, 1
+    unused, count = name, counts.get(name, 1)
     while unused in names:
         count += 1
         unused = f"{name} {count}"
+    counts[name] = count
     return unused
 
 

@@ -15,14 +15,15 @@ SERIOUS = (
     r"heater \d+ fault",  # 3.3 LocalHeater.cpp:743
     r"heating fault",
     r"temperature excursion",
-    r"temperature (rising|rose) too",
+    r"temperature (?:rising|rose) too",
     r"over ?temperature",
     r"short[- ]to[- ]ground",
-    r"driver \d+.*(error|fault|short)",
+    r"driver \d.{0,250}?(?:error|fault|short)",
     r"emergency stop",
     r"over-?voltage",
 )
-"""Patterns, in lower case, of texts that a person has to see."""
+"""Patterns, in lower case, of texts that a person has to see; none looks farther than a reply is
+long (256 bytes), or a line of many beginnings would take time that grows with its square."""
 
 HALTED = "machine is halted"
 """In the answer to all but a few commands after ``M112`` (3.5 GCodes2.cpp:585)."""
