@@ -6,6 +6,7 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
+from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
 
 WATCHED = UNSENDABLE | {EMERGENCY_STOP}
@@ -18,7 +19,8 @@ class QueuedCommands:
     ``notify("halted")`` must only take note and return. ``instead(cmd, gcode, tags)`` gives what
     to queue for a command that had better not be sent. Each of ``translators`` is called
     ``(cmd, gcode, tags)`` and gives what to queue for a command that isn't a file's; ``None`` of
-    any of them leaves it to the next, and in the end as it is.
+    any of them leaves it to the next, and in the end as it is. Of what OctoPrint runs for a print
+    they are asked about each line, also about those that it takes for no command.
     """
 
     def __init__(self, link, notify, instead, *, translators):
@@ -40,6 +42,10 @@ class QueuedCommands:
         """
         if comm is not self._link.connection:
             return None
+        if tags and not OF_PRINTS.isdisjoint(tags):
+            translated = self._translate(cmd, gcode, tags)
+            if translated is not None:
+                return self._queue(translated, cmd_type, gcode)
         if gcode is None:
             if not cmd.startswith("T"):
                 return None
