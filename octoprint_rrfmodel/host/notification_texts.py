@@ -20,6 +20,10 @@ def notification_text(code, detail):
             "Not sent, the printer would not acknowledge it: %(detail)s. Use the machine's own"
             " console."
         ),
+        "heaters_off": gettext(
+            "The print was cancelled. These heaters, which OctoPrint's script does not know, were"
+            " switched off too: %(detail)s."
+        ),
         "print_paused": gettext("The print was paused. %(detail)s"),
         "board_reset": gettext(
             "The board was reset. Its axes have to be homed again, and its heaters are off."

@@ -9,6 +9,7 @@ pytest.importorskip("octoprint")
 from octoprint_rrfmodel.host.tags import FILE_TAG
 from octoprint_rrfmodel.link.serial.queued import QueuedCommands
 from octoprint_rrfmodel.link.serial.script_filter import ScriptFilter
+from octoprint_rrfmodel.rrf.views.machine import Machine
 
 from .test_sdcard import Bench
 
@@ -28,8 +29,23 @@ class Queue(Bench):
 
     def __init__(self):
         super().__init__()
-        link = SimpleNamespace(connection=self.comm, rewritten=0, targets={})
-        scripts = ScriptFilter(link, self.card)
+        self.told = []
+        self.off = set()
+        link = SimpleNamespace(
+            connection=self.comm,
+            rewritten=0,
+            targets={},
+            profile=lambda: {"extruder": {"count": 1}},
+            # what it makes of a line stands in its own tests
+            carried=lambda lines, machine: [line.replace("M14", "M120 M14") for line in lines],
+        )
+        scripts = ScriptFilter(
+            link,
+            self.card,
+            lambda: Machine(self.model),
+            is_on=lambda row: row not in self.off,
+            tell=lambda *told: self.told.append(told),
+        )
         self.hook = QueuedCommands(
             link,
             notify=None,
@@ -206,3 +222,85 @@ def test_scripts_that_are_for_no_print_are_left_alone(bench):
     bench.status("processing")
     names = ["beforeToolChange", "afterToolChange", "afterPrinterConnected", "mine"]
     assert bench.runs(*names) == names
+
+
+def heater(state, active=0.0, standby=0.0):
+    return {"state": state, "active": active, "standby": standby, "current": 100.0}
+
+
+HOT = {
+    "state": {"status": "idle", "currentTool": 0},
+    "boards": [{"firmwareVersion": "3.5.3"}],
+    "heat": {
+        "bedHeaters": [0, 5, -1],
+        "chamberHeaters": [-1, 6],
+        "heaters": [
+            heater("active", 60.0),
+            heater("active", 200.0),
+            heater("standby", 200.0, 150.0),
+            heater("off", 210.0),
+            None,
+            heater("active", 70.0),
+            heater("active", 40.0),
+        ],
+    },
+    "tools": [
+        {"number": 0, "heaters": [1]},
+        {"number": 1, "heaters": [2]},
+        None,
+        {"number": 3, "heaters": [3]},
+        # with the heater of the first
+        {"number": 7, "heaters": [1]},
+        {"number": 8, "heaters": []},
+    ],
+}
+
+SCRIPT = script("afterPrintCancelled")
+
+
+@pytest.fixture
+def hot(bench):
+    """The bench with a streamed print that was cancelled on a hot machine of many heaters."""
+    bench.streams("cancelling")
+    bench.model = HOT
+    return bench
+
+
+def test_cancelled_print_leaves_no_heater_on_that_its_script_does_not_know(hot):
+    assert hot.goes_out("M104 T0 S0", SCRIPT) == [
+        "M104 T0 S0",
+        "M568 P0 A0",
+        "M568 P1 A0",
+        "M568 P3 A0",
+    ]
+    # its next line for that kind is but one more
+    assert hot.goes_out("M104 T1 S0", SCRIPT) == ["M104 T1 S0"]
+    assert hot.goes_out("M140 S0", SCRIPT) == [
+        "M140 S0",
+        "M120 M140 P0 S{-273.15}",
+        "M120 M140 P1 S{-273.15}",
+    ]
+    assert hot.goes_out("M141 S0", SCRIPT) == ["M141 S0", "M120 M141 P1 S{-273.15}"]
+    # of what was on and isn't OctoPrint's to know
+    assert hot.told == [("heaters_off", "T1"), ("heaters_off", "B1")]
+    # the next print's script again
+    hot.comm._currentFile = SimpleNamespace(getStartTime=lambda: 2.0)
+    assert len(hot.goes_out("M104 T0 S0", SCRIPT)) == 4
+
+
+def test_what_a_script_leaves_on_stays_on(hot):
+    for line in ("M84", "M106 S0", "M140 S50", "M104 T0 S170", "G10", "M140", "M568 P1 A1"):
+        assert hot.goes_out(line, SCRIPT) == [line]
+    # nor do other scripts switch off what they don't name
+    assert hot.goes_out("M104 T0 S0", script("afterPrintDone")) == ["M104 T0 S0"]
+    assert hot.goes_out("M140 S0", {"trigger:printer.commands"}) == ["M140 S0"]
+
+
+def test_heaters_by_a_setting(hot):
+    hot.off.add("heaters_off")
+    assert hot.goes_out("M104 T0 S0", SCRIPT) == ["M104 T0 S0"]
+
+
+def test_heaters_of_a_machine_that_runs_a_job_of_its_own_stay_on(hot):
+    hot.model = {**HOT, "state": {"status": "processing"}}
+    assert hot.goes_out("M104 T0 S0", SCRIPT) == []

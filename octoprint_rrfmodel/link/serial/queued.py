@@ -5,11 +5,12 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
 from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
 
-WATCHED = UNSENDABLE | {EMERGENCY_STOP}
+WATCHED = UNSENDABLE | STOPS | {EMERGENCY_STOP}
 """Commands that are looked at wherever they come from."""
 
 

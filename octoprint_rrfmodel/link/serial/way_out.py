@@ -5,6 +5,7 @@ from functools import partial
 from .operation_translator import OperationTranslator
 from .queued import QueuedCommands
 from .script_filter import ScriptFilter
+from .stop_commands import StopCommands
 from .unsendable_commands import UnsendableCommands
 
 
@@ -22,6 +23,7 @@ def queued_commands(link, card, machine, *, notify, is_on, prompts):
         is_on,
         refused,
         paused=partial(notify, "print_waits"),
+        stop=StopCommands(link, machine, card.is_others, is_on=is_on).instead,
     )
     return QueuedCommands(
         link,
@@ -29,7 +31,7 @@ def queued_commands(link, card, machine, *, notify, is_on, prompts):
         unsendable.instead,
         translators=(
             # what must not go out at all is in no need of another form
-            ScriptFilter(link, card).translate,
+            ScriptFilter(link, card, machine, is_on=is_on, tell=refused).translate,
             prompts,
             card.translate,
             OperationTranslator(machine, is_on, refused).translate,
