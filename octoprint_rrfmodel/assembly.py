@@ -30,8 +30,6 @@ from .link.listeners import Listeners
 from .link.poller import Poller
 from .link.questions import Questions
 from .link.serial.display import Display
-from .link.serial.operation_translator import OperationTranslator
-from .link.serial.queued import QueuedCommands
 from .link.serial.received import ReceivedLines
 from .link.serial.sdcard import SdCard
 from .link.serial.sdjob import SdJob
@@ -39,7 +37,7 @@ from .link.serial.sdupload import UploadRefusal
 from .link.serial.sent import SentCommands
 from .link.serial.serial_link import SerialLink
 from .link.serial.simulated_port import SimulatedPort
-from .link.serial.unsendable_commands import UnsendableCommands
+from .link.serial.way_out import queued_commands
 from .link.status import PluginStatus
 from .link.terminal import TerminalFilter
 from .link.worker import Worker
@@ -184,24 +182,16 @@ class Assembly:
         )
 
     def _make_hooks(self):
-        host, notify, machine = self._host, self.worker.notify, self._known.machine
-        refused = partial(notify, "refused_operation")
-        is_translated = partial(host.is_set, "operations")
-        profile = self.link.profile
-        operations = OperationTranslator(machine, is_translated, refused, profile=profile)
-        paused = partial(notify, "print_waits")
-        unsendable = UnsendableCommands(machine, is_translated, refused, paused=paused)
+        host, notify = self._host, self.worker.notify
         self.display = Display(self.link, self._known, self._poller.is_stale, fire=host.fire)
         self.received = ReceivedLines(self.link, self._card, notify, guards=self._guard.handles)
-        self.queued = QueuedCommands(
+        self.queued = queued_commands(
             self.link,
-            notify,
-            unsendable.instead,
-            translators=(
-                self.other_plugins.prompt.translate,
-                self._card.translate,
-                operations.translate,
-            ),
+            self._card,
+            self._known.machine,
+            notify=notify,
+            is_on=partial(host.is_set, "operations"),
+            prompts=self.other_plugins.prompt.translate,
         )
         self.sent = SentCommands(
             self.link,

@@ -65,9 +65,14 @@ class Recovery:
         if self._lock.acquire(blocking=False):
             threading.Thread(target=self._run, name="rrfmodel.recovery", daemon=True).start()
 
+    def _is_running(self):
+        """Return whether the board prints by itself, ``None`` while that isn't known."""
+        machine = self._machine()
+        return machine.prints if machine.status else None
+
     def _run(self):
         try:
-            self._link.restart()
+            self._link.restart(self._is_running)
         except Exception:
             self._logger.exception("Could not restart the board")
             self._notifications.did_not_come_back()

@@ -24,6 +24,10 @@ def notification_text(code, detail):
             "Not sent, the printer would take the asterisk for a checksum and drop the line:"
             " %(detail)s. Put the text in quotes, or leave the asterisk out."
         ),
+        "heaters_off": gettext(
+            "The print was cancelled. These heaters, which OctoPrint's script does not know, were"
+            " switched off too: %(detail)s."
+        ),
         "print_paused": gettext("The print was paused. %(detail)s"),
         "board_reset": gettext(
             "The board was reset. Its axes have to be homed again, and its heaters are off."

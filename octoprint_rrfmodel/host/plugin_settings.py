@@ -2,6 +2,8 @@
 
 from ..rrf.card.wording import ROWS as WORDING
 from ..rrf.gcode.recognition import ROWS
+from ..rrf.gcode.stops import ROW as STOP
+from ..rrf.gcode.switch_off import ROW as HEATERS_OFF
 from ..rrf.gcode.unsendable import ROWS as UNSENDABLE
 from ..rrf.views.warnings import GUARDS
 
@@ -22,7 +24,9 @@ SIDEBAR = (
 
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
-    "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
+    "operations": dict.fromkeys(
+        [*(row.name for row in (*ROWS, *UNSENDABLE)), STOP, HEATERS_OFF], True
+    ),
     # rows of the table of replies that are switched off reach OctoPrint as the firmware has them
     "replies": {row.name: True for row in WORDING},
     # what pauses a print that OctoPrint streams

@@ -87,10 +87,12 @@ class Link(abc.ABC):
         """Whether there was a board that ``restart`` could reach."""
 
     @abc.abstractmethod
-    def restart(self):
+    def restart(self, is_running):
         """Restart the board and connect again; takes a minute, raises where it doesn't come back.
 
-        The one method that waits: on a thread of whoever calls it.
+        ``is_running()`` says whether the board prints by itself, ``None`` while nobody knows. What
+        somebody has begun meanwhile, here or there, is left alone. The one method that waits: on a
+        thread of whoever calls it.
         """
 
     ##~~ why the board can't be asked, and what it is asked to do

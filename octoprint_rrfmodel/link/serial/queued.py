@@ -6,9 +6,14 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
+from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
 from .fitting import begin_a_line
+from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
+
+WATCHED = UNSENDABLE | STOPS
+"""Commands that are looked at wherever they come from, a file included."""
 
 
 class QueuedCommands:
@@ -18,7 +23,8 @@ class QueuedCommands:
     for. ``instead(cmd, gcode, tags)`` gives what to queue for a command that had better not be
     sent. Each of ``translators`` is called ``(cmd, gcode, tags)`` and gives what to queue for a
     command that isn't a file's; ``None`` of any of them leaves it to the next, and in the end as
-    it is.
+    it is. Of what OctoPrint runs for a print they are asked about each line, also about those that
+    it takes for no command.
     """
 
     def __init__(self, link, notify, instead, *, translators):
@@ -40,6 +46,10 @@ class QueuedCommands:
         """
         if comm is not self._link.connection:
             return None
+        if tags and not OF_PRINTS.isdisjoint(tags):
+            translated = self._translate(cmd, gcode, tags)
+            if translated is not None:
+                return self._queue(translated, cmd_type, gcode)
         if gcode is None:
             if cmd.startswith(HOSTS_OWN):
                 return None
@@ -47,12 +57,12 @@ class QueuedCommands:
             if not gcode:
                 # means nothing to the board, and OctoPrint might wait for its ok
                 return (None,)
-            if gcode not in UNSENDABLE:
+            if gcode not in WATCHED:
                 return self._as_it_is(cmd, cmd_type, gcode)
         if gcode == EMERGENCY_STOP:
             self._stopping(comm)
             return None
-        if gcode in UNSENDABLE or "*" in cmd:
+        if gcode in WATCHED or "*" in cmd:
             instead = self._instead(cmd, gcode, tags or ())
             if instead is not None:
                 return self._queue(instead, cmd_type, gcode)

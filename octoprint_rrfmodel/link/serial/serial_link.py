@@ -142,8 +142,8 @@ class SerialLink(Link):
     def can_restart(self):
         return self._last is not None
 
-    def restart(self):
-        restart(self, self._printer, self._last)
+    def restart(self, is_running):
+        restart(self, self._printer, self._last, is_running)
 
     def blocked(self):
         comm = self.connection

@@ -5,6 +5,7 @@ import logging
 from ...host.tags import FILE_TAG
 from ...rrf.gcode.operations import NOTHING, Lines
 from ...rrf.gcode.plain_lines import with_safe_stars
+from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import text_of_box, unsendable
 from ...rrf.wire.masking import masked
 
@@ -17,13 +18,15 @@ class UnsendableCommands:
 
     ``machine()`` is the view of the model that it depends on. ``is_on(row)`` says whether a row
     of the table is switched on. ``refused(code, detail)`` and ``paused(message)`` only take note.
+    ``stop(cmd, gcode, tags)`` gives what to queue for a stop of a file.
     """
 
-    def __init__(self, machine, is_on, refused, *, paused):
+    def __init__(self, machine, is_on, refused, *, paused, stop):
         self._machine = machine
         self._is_on = is_on
         self._refused = refused
         self._paused = paused
+        self._stop = stop
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.unsendable")
 
     def instead(self, cmd, gcode, tags):
@@ -38,6 +41,8 @@ class UnsendableCommands:
             return NOTHING
         if safe != cmd:
             return Lines((safe,))
+        if gcode in STOPS:
+            return self._stop(cmd, gcode, tags) if FILE_TAG in tags else None
         row = unsendable(cmd, gcode, self._machine())
         if row is None or not self._is_on(row.name):
             return None
