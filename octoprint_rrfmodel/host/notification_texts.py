@@ -20,6 +20,11 @@ def notification_text(code, detail):
             "Not sent, the printer would not acknowledge it: %(detail)s. Use the machine's own"
             " console."
         ),
+        "box_waits": gettext(
+            "A message of the machine waits for an answer that this firmware does not take over"
+            " USB. Answer on the machine's own page or panel, and everything goes on by itself; or"
+            " restart the machine."
+        ),
         "print_paused": gettext("The print was paused. %(detail)s"),
         "board_reset": gettext(
             "The board was reset. Its axes have to be homed again, and its heaters are off."

@@ -103,6 +103,10 @@ class Link(abc.ABC):
     def doing(self):
         """Return the command that the line waits for (``Doing``), ``None`` for none."""
 
+    def silent_for(self):
+        """Return how many seconds nothing has come while a command is awaited that takes long."""
+        return 0.0
+
     @abc.abstractmethod
     def has_polled(self, command):
         """Return whether a command in OctoPrint's log was a poll, of earlier connections too."""

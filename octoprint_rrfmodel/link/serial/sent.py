@@ -34,9 +34,8 @@ class SentCommands:
         if gcode is None and cmd.startswith("T"):
             gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
             count_ok(comm)
-        link.awaited = gcode
-        link.awaited_command = cmd
-        now = link.awaited_since = self._clock()
+        link.awaits(cmd, gcode)
+        now = link.awaited_since
         link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
         link.extra_ok.sending(cmd, gcode)
         if gcode in TARGETING or cmd in link.targets:

@@ -91,16 +91,3 @@ def test_heating_by_a_command(server, board_factory, firmware):
     helpers.assert_quiet(board, "M190 S60", "M117 done")
     helpers.wait_polls(server, 2)
     helpers.wait_equal(server, board)
-
-
-def test_silence_would_have_ended_the_connection(server, board_factory):
-    """The timeouts are as short as the other tests need them: proof by a board that is silent."""
-    board = board_factory(firmware="3.5.3")
-    helpers.connect(server, board)
-    cold_bed(board)
-    server.commands("M190 S60")
-    server.wait_for(lambda: "M190 S60" in helpers.commands(board), 10, "the command to arrive")
-    # what the firmware would do after an M409 as the last request
-    board.board.channels["USB"].status_request = "M409"
-    server.wait_disconnected(HEATING_SECONDS)
-    assert server.state() != "Operational"
