@@ -26,6 +26,7 @@ from .link.known import Known
 from .link.listeners import Listeners
 from .link.poller import Poller
 from .link.questions import Questions
+from .link.reports import TemperatureReports
 from .link.serial.display import Display
 from .link.serial.operation_translator import OperationTranslator
 from .link.serial.patience import Patience
@@ -76,6 +77,7 @@ class Assembly:
         self._follower = Follower()
         self._known = Known(self._follower, self.link, self._clock)
         self.model = self._known.model
+        self._reports = TemperatureReports(self._follower, self._known, self._listeners.warmed)
         self._notifications = Notifications(host.tell_pages, self._clock)
         self.setup = Setup(host, self.link, self._known)
         """What the settings page and the first-run wizard show."""
@@ -245,6 +247,7 @@ class Assembly:
             "line": self._listeners.line,
             "heard": self._listeners.heard,
             "reply": poller.reply,
+            "report": self._reports.take,
             "refused": poller.refused,
             "poll_sent": poller.poll_sent,
             "poll_acknowledged": poller.poll_acknowledged,

@@ -52,6 +52,7 @@ class Poller:
         self._hurries = False
         self._queries = Queries()
         self._was_query = False
+        self._held_for = None
         self.query = self._queries.ask
         self.query_for = self._queries.ask_for
         self.connections = 0
@@ -74,7 +75,7 @@ class Poller:
         self._queries.close()
         if self._poll is not None and self._poll.query is not None:
             fail(self._poll.query, GONE)
-        self._poll = None
+        self._poll = self._held_for = None
         self._known.forget()
         self.follower.forget()
 
@@ -91,6 +92,7 @@ class Poller:
         )
         if self._poll is None and is_due and not self.blocked():
             self._start_poll(now)
+        self._held_for = self.blocked() or self._held_for
         if self._poll is not None or self.blocked():
             return 0.25
         return max(0.01, self._next_at - now)
@@ -103,6 +105,10 @@ class Poller:
         if reason is None and self.follower.short_of_buffers and self._clock() < self._next_at:
             reason = "buffers"
         return reason
+
+    def why_silent(self):
+        """Return what holds polls back, or has until now while the first reply is on its way."""
+        return self.blocked() or (self._held_for if self.is_stale() else None)
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
@@ -182,6 +188,7 @@ class Poller:
             self._pace.failed()
         else:
             self._pace.answered(len(text), self._clock() - asked_at)
+            self._held_for = None
             self._known.note(poll.request, asked_at)
             self._replied(taken, asked_at)
         self._finish_if_over()
@@ -242,6 +249,7 @@ class Poller:
             self._time_out(poll)
 
     def _time_out(self, poll):
+        self._held_for = None
         if poll.is_card:
             self._card.failed()
         elif poll.query is None:

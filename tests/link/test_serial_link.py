@@ -164,6 +164,14 @@ def test_blocked_says_heating_only_where_the_line_waits_for_heat(rig):
     assert rig.link.blocked() == "heating"
 
 
+def test_temperatures_of_the_line_go_to_the_worker_and_to_octoprint(rig):
+    rig.notes.clear()
+    report = "T0:20.0 /0.0 B:20.0 /0.0"
+    for line in (report, f"ok {report}", "ok", "B:20.0 /0.0", "Begin file list"):
+        assert rig.hear(line) == line
+    assert rig.notes == [("report", report), ("report", f"ok {report}"), ("report", "B:20.0 /0.0")]
+
+
 def test_does_nothing_once_the_connection_is_gone(rig):
     rig.send("G29", "G29")
     rig.link.forget()

@@ -10,6 +10,7 @@ from ...rrf.gcode.blocking import SETTLING
 from ...rrf.wire.errors import is_halted, is_serious
 from ...rrf.wire.heard import TELLING, heard
 from ...rrf.wire.line import VOLTAGE_WARNING, find_reply, without_warning
+from ...rrf.wire.report import is_report
 
 REPORTS = frozenset("TBC")
 """First letters of a temperature report that comes by itself."""
@@ -21,7 +22,7 @@ ATTENDED = TELLING | REPORTS | {begins[0] for begins in (*BEGINNINGS, LIST_BEGIN
 class ReceivedLines:
     """Takes the board's JSON out of what OctoPrint hears, and finds out whose board it is.
 
-    ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
+    ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused``, ``report`` (line),
     ``identified``, ``halted`` and ``heard`` (what); it must only take note and return.
     ``card.reword(line)`` gives a line in words that OctoPrint knows, ``card.fill()`` one in the
     place of a line that was the plugin's alone. ``guards(error)`` says whether a serious error
@@ -61,6 +62,8 @@ class ReceivedLines:
             return line
         if '{"' not in line:
             if line[:1] == "o" and link.extra_ok.awaits is None:
+                if line[3:4] in REPORTS:
+                    self._notify("report", line)
                 if link.awaited is not None and line.startswith("ok"):
                     link.acknowledged(link.awaited in SETTLING)
                 return line
@@ -96,6 +99,8 @@ class ReceivedLines:
             if line.startswith(VOLTAGE_WARNING):
                 # OctoPrint sees an ok only where a line starts with it, and waits half a minute
                 line = without_warning(line)
+        if is_report(line):
+            self._notify("report", line)
         if link.extra_ok.awaits is not None and link.extra_ok.is_in(line):
             return SWALLOWED
         if line.startswith("ok"):
