@@ -2,13 +2,13 @@
 
 import octoprint.plugin
 
-from octoprint_rrfmodel.link.serial import recovery
+from octoprint_rrfmodel.link.serial import restart
 
 __plugin_name__ = "Times of the restart"
 __plugin_pythoncompat__ = ">=3.9,<4"
 
 NAMES = ("SENDING_SECONDS", "RETURN_SECONDS")
-USUAL = {name: getattr(recovery, name) for name in NAMES}
+USUAL = {name: getattr(restart, name) for name in NAMES}
 
 
 class RecoveryTimes(octoprint.plugin.SimpleApiPlugin):
@@ -20,7 +20,7 @@ class RecoveryTimes(octoprint.plugin.SimpleApiPlugin):
 
     def on_api_command(self, command, data):
         for name in NAMES:
-            setattr(recovery, name, data.get(name, USUAL[name]))
+            setattr(restart, name, data.get(name, USUAL[name]))
 
 
 __plugin_implementation__ = RecoveryTimes()
