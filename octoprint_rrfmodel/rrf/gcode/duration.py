@@ -26,8 +26,9 @@ _M = """
     905 906 907 908 911 912 913 915 917 918 929 943 950 951 952 954 955 956 957 970 997 999
 """
 
-QUICK = frozenset([*(f"G{code}" for code in _G.split()), *(f"M{code}" for code in _M.split())])
-"""The firmware's own commands whose ``ok`` comes soon, but for moves that wait for room."""
+QUICK = frozenset(["F", *(f"G{code}" for code in _G.split()), *(f"M{code}" for code in _M.split())])
+"""The firmware's own commands whose ``ok`` comes soon, but for moves that wait for room; ``F`` is
+what a host has for the name of a line with a feed rate alone."""
 
 
 def takes_long(line: str, gcode: str) -> bool:

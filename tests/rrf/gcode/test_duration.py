@@ -31,6 +31,7 @@ def test_takes_long(line, gcode):
     [
         ("G1 X10 E2 F3000", "G1"),
         ("G0 X1", "G0"),
+        ("F3000", "F"),
         ("M105", "M105"),
         ('M409 K"heat"', "M409"),
         ("M117 G28 comes next", "M117"),
