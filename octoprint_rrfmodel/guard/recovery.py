@@ -14,13 +14,16 @@ class Recovery:
 
     ``printer()`` is OctoPrint's, ``link`` reaches the board, ``machine()`` is the view of the
     model. ``notifications`` tell when the board didn't come back, or doesn't stop yet.
+    ``is_held()`` says whether a box holds the line that nobody can answer over it: OctoPrint can't
+    end its print then.
     """
 
-    def __init__(self, printer, link, machine, *, notifications):
+    def __init__(self, printer, link, machine, *, notifications, is_held):
         self._printer = printer
         self._link = link
         self._machine = machine
         self._notifications = notifications
+        self._is_held = is_held
         self._lock = threading.Lock()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.recovery")
         self.is_wanted = False
@@ -52,7 +55,8 @@ class Recovery:
     def refusal(self):
         """Return why there can be no restart now, ``None`` where there can."""
         printer = self._printer()
-        if (printer.is_printing() and not printer.is_paused()) or self._machine().prints:
+        streams = printer.is_printing() and not printer.is_paused() and not self._is_held()
+        if streams or self._machine().prints:
             return gettext("The machine prints. Pause or cancel the print first.")
         if printer.is_operational() and not self._link.is_rrf:
             return gettext("The connected printer has not said that it runs RepRapFirmware.")

@@ -28,6 +28,11 @@ def notification_text(code, detail):
             "The print was cancelled. These heaters, which OctoPrint's script does not know, were"
             " switched off too: %(detail)s."
         ),
+        "box_waits": gettext(
+            "A message of the machine waits for an answer that this firmware does not take over"
+            " USB. Answer on the machine's own page or panel, and everything goes on by itself; or"
+            " restart the machine."
+        ),
         "print_paused": gettext("The print was paused. %(detail)s"),
         "board_reset": gettext(
             "The board was reset. Its axes have to be homed again, and its heaters are off."

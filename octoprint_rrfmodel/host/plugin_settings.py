@@ -31,6 +31,8 @@ DEFAULTS = {
     "replies": {row.name: True for row in WORDING},
     # what pauses a print that OctoPrint streams
     "guard": {code: True for code in GUARDS},
+    # minutes that a board may say nothing during a command that takes long; 0: any time
+    "silence_minutes": 60.0,
     # keep the plugin's polls out of the terminal tab
     "hide_polls": True,
     "mqtt": {

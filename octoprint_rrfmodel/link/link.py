@@ -109,6 +109,10 @@ class Link(abc.ABC):
         """Return whether a command that may home, heat or choose tools waits or is under way."""
         return False
 
+    def silent_for(self):
+        """Return how many seconds nothing has come while a command is awaited that takes long."""
+        return 0.0
+
     @abc.abstractmethod
     def has_polled(self, command):
         """Return whether a command in OctoPrint's log was a poll, of earlier connections too."""

@@ -52,6 +52,7 @@ class Poller:
         self._hurries = False
         self._queries = Queries()
         self._was_query = False
+        self._held_for = None
         self.query = self._queries.ask
         self.query_for = self._queries.ask_for
         self.connections = 0
@@ -77,7 +78,7 @@ class Poller:
             self._count("timeouts" if self._poll.sent_at is not None else None)
         if self._poll is not None and self._poll.query is not None:
             fail(self._poll.query, GONE)
-        self._poll = None
+        self._poll = self._held_for = None
         self._known.forget()
         self.follower.forget()
 
@@ -94,6 +95,7 @@ class Poller:
         )
         if self._poll is None and is_due and not self.blocked():
             self._start_poll(now)
+        self._held_for = self.blocked() or self._held_for
         if self._poll is not None or self.blocked():
             return 0.25
         return max(0.01, self._next_at - now)
@@ -106,6 +108,10 @@ class Poller:
         if reason is None and self.follower.short_of_buffers and self._clock() < self._next_at:
             reason = "buffers"
         return reason
+
+    def why_silent(self):
+        """Return what holds polls back, or has until now while the first reply is on its way."""
+        return self.blocked() or (self._held_for if self.is_stale() else None)
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
@@ -182,7 +188,6 @@ class Poller:
                 self._count("out_of_buffers" if text == NO_BUFFERS else "replies")
                 self._finish_if_over()
             return
-        asked_at = poll.sent_at
         try:
             taken = self.follower.take(text)
         except MalformedReply as error:
@@ -199,14 +204,14 @@ class Poller:
         if text == NO_BUFFERS and self.follower.short_of_buffers:
             self._pace.failed()
         else:
-            goes_on = self.follower.is_amid
-            self._pace.answered(len(text), self._clock() - asked_at, goes_on)
+            self._pace.answered(len(text), self._clock() - poll.sent_at, self.follower.is_amid)
         if text != NO_BUFFERS or taken.changes:
+            self._held_for = None
             if taken.is_doubted:
                 self.hurry()
             else:
-                self._known.note(poll.request, asked_at)
-                self._replied(taken, asked_at)
+                self._known.note(poll.request, poll.sent_at)
+                self._replied(taken, poll.sent_at)
         self._finish_if_over()
 
     def heard(self, what):
@@ -265,6 +270,7 @@ class Poller:
             self._time_out(poll)
 
     def _time_out(self, poll):
+        self._held_for = None
         # if only the number spoke against it, it is not what it was taken for
         self._knows_numbers = self._knows_numbers and not poll.answered_others
         if poll.is_card or poll.query is not None:

@@ -56,7 +56,13 @@ class LostOk:
         if since != self._since:
             self._since, self._asked, self._asked_at = since, 0, 0.0
         is_silent = now - max(since, link.heard_at, self._asked_at) >= SILENT_SECONDS
-        if is_silent and _is_plain(awaited, link.awaited_command) and _waits(comm):
+        # what may take long is waited for (``patience``)
+        if (
+            is_silent
+            and not link.awaits_long
+            and _is_plain(awaited, link.awaited_command)
+            and _waits(comm)
+        ):
             self._ask(comm, awaited, now)
         return TICK_SECONDS
 

@@ -42,9 +42,8 @@ class SentCommands:
             count_ok(comm)
         if link.awaited is not None:
             link.extra_ok.given_up()
-        link.awaited = gcode
-        link.awaited_command = cmd
-        now = link.awaited_since = self._clock()
+        link.awaits(cmd, gcode)
+        now = link.awaited_since
         link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
         link.extra_ok.sending(cmd, gcode)
         if gcode in TARGETING or cmd in link.targets:

@@ -6,8 +6,9 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 import threading
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import BLOCKING, may_change
-from ...rrf.gcode.doing import what_of
+from ...rrf.gcode.blocking import may_change
+from ...rrf.gcode.doing import HEATING, what_of
+from ...rrf.gcode.duration import takes_long
 from ...rrf.wire.gcode_words import words
 from ...rrf.wire.masking import masked
 from ..link import Doing, Link
@@ -68,8 +69,10 @@ class SerialLink(Link):
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
         self.awaited_since = 0.0
+        self.awaits_long = False
+        """Whether the awaited command may take long without a word."""
         self.heard_at = 0.0
-        """When a line last came in, of whatever kind."""
+        """When the board last said something, or a command last went out to it."""
         self.asks_of_a_file = False
         self.targets = {}
         """Line that is to go out to the heater and the target that it sets."""
@@ -81,6 +84,17 @@ class SerialLink(Link):
         self.forget()
         fit(comm)
         self.connection = comm
+
+    def awaits(self, cmd, gcode):
+        """Note the command that is about to go out."""
+        self.awaited = gcode
+        self.awaited_command = cmd
+        self.awaited_since = self.heard_at = self._clock()
+        self.awaits_long = gcode is not None and takes_long(cmd, gcode)
+        if self.awaits_long:
+            # whatever OctoPrint's settings know of it: it asks for nothing meanwhile, and doesn't
+            # take a missing ok for a lost one (comm._handle_ok ends that)
+            self.connection._long_running_command = True
 
     def heard_now(self):
         """Note that the board has said something."""
@@ -152,13 +166,18 @@ class SerialLink(Link):
         if comm.isStreaming() or comm._manualStreaming:
             return "streaming"
         if self.awaited is None:
-            # an unsolicited temperature lets OctoPrint think of heating; no ok would end that
             return None
-        if comm._heating:
+        # a temperature lets OctoPrint think of heating, also where a move waits for room
+        if what_of(self.awaited_command) == HEATING:
             return "heating"
-        if comm._long_running_command or comm._dwelling_until or self.awaited in BLOCKING:
+        if comm._long_running_command or self.awaits_long:
             return "long_command"
         return None
+
+    def silent_for(self):
+        if self.connection is None or self.awaited is None or not self.awaits_long:
+            return 0.0
+        return self._clock() - self.heard_at
 
     def doing(self):
         if self.connection is None or self.awaited is None:

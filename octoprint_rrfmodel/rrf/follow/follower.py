@@ -14,10 +14,12 @@ from ..model.merge import NestedTooDeep
 from ..model.store import ModelStore
 from ..wire.live_reader import LiveReader
 from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
+from ..wire.report import entries
 from ..wire.request import LIVE_FLAGS, ModelRequest, Request
 from .doubts import Doubts
 from .poll import ModelPlan, Update
 from .poll408 import StatusPlan
+from .reported import members_of, patch_of
 
 LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
 
@@ -34,6 +36,15 @@ class Taken(NamedTuple):
     """Whether it showed that the board had been reset; the model then begins anew."""
     is_doubted: bool = False
     """Whether it tells of something bad for the first time: it doesn't count, ask again at once."""
+
+
+class Warmed(NamedTuple):
+    """What a report of temperatures did; all else of the model is as old as before."""
+
+    changes: dict[str, Any]
+    """As in ``Taken``."""
+    heaters: frozenset[int]
+    """Indices of those that it told of."""
 
 
 class Follower:
@@ -147,6 +158,16 @@ class Follower:
     def told(self) -> None:
         """Note that the firmware has said by itself that something is wrong: believe it at once."""
         self._doubts.told()
+
+    def warm(self, line: str) -> Warmed | None:
+        """Put a report of temperatures into the model; ``None`` where it tells nothing."""
+        model = self.store.model
+        members = members_of(entries(line), model)
+        if not members:
+            return None
+        # the next live reply is compared with what stands in the model now
+        self._reader.forget()
+        return Warmed(self.store.patch(patch_of(members, model)), frozenset(members))
 
     def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
         """Ask for a key again until its letters beyond ASCII come twice the same.

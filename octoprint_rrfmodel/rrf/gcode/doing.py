@@ -15,6 +15,9 @@ from .unsendable import waits_for_answer, without_texts
 OTHER = "other"
 """What every command does that is in no row."""
 
+HEATING = "heating"
+"""What a wait for temperatures is called."""
+
 _EXPRESSION = re.compile(r"\{(?:[^{}]|\{[^{}]*\})*\}")
 """An expression in braces, with braces in it at most once: letters in it begin no command."""
 
@@ -31,6 +34,10 @@ _S = re.compile(r"S\s*(?P<value>-?\d+)", re.IGNORECASE)
 
 TO_THE_END = frozenset(("M23", "M28", "M30", "M32", "M36", "M37", "M38", "M117"))
 """Commands whose text goes on to the end of the line, whatever stands in it."""
+
+
+SECRETIVE = ("M551", "M586.4", "M587", "M589")
+"""Commands with a password among their parameters."""
 
 
 class Row(NamedTuple):
@@ -58,13 +65,13 @@ def _saves(command: str) -> bool:
 ROWS = (
     Row("homing", ("G28",), "homeall.g and its kin run to their end (3.5 GCodes.cpp, DoHome)."),
     Row(
-        "heating",
+        HEATING,
         ("M109", "M116", "M190", "M191"),
         "Wait until temperatures are reached, M109 after a tool change where none is selected"
         " (3.5 GCodes2.cpp:1759, :2342).",
     ),
     Row(
-        "heating",
+        HEATING,
         ("M303",),
         "Tunes a heater; its ok comes at once, the heat for minutes (3.5 Heat.cpp, TuneHeater).",
     ),
@@ -154,6 +161,12 @@ def what_of(line: str) -> str:
             if gcode in row.gcodes and row.hits(command):
                 return row.what
     return OTHER
+
+
+def shown(command: str) -> str:
+    """Return a command as anybody may see it: of those that take a secret only the name."""
+    gcode = command.lstrip().partition(" ")[0]
+    return gcode if gcode.startswith(SECRETIVE) else command
 
 
 def _commands(line: str) -> Iterator[tuple[str, str]]:
