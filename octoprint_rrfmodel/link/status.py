@@ -1,6 +1,7 @@
 """The plugin's state, as ``GET /plugin/rrfmodel/status`` and every push tell it."""
 
-from ..rrf.gcode.doing import OTHER, shown
+from ..rrf.gcode.doing import OTHER
+from ..rrf.wire.masking import masked
 
 UNIMPORTANT = frozenset(("age", "at", "revision", "counters", "doing"))
 """Members of the state that change all the time and are worth no message of their own."""
@@ -65,7 +66,7 @@ class PluginStatus:
         if doing is None:
             return None
         since = max(0.0, self._known.now() - doing.since)
-        return {"command": shown(doing.command), "what": doing.what, "since": round(since, 1)}
+        return {"command": masked(doing.command), "what": doing.what, "since": round(since, 1)}
 
     def _firmware(self):
         """Return what M115 told; the model's version wins, it survives a firmware update."""

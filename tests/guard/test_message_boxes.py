@@ -79,7 +79,7 @@ def test_a_restart_is_a_way_out_of_a_print_that_nobody_can_end(
         lambda: printer,
         SimpleNamespace(is_rrf=True, can_restart=True),
         lambda: SimpleNamespace(prints=card_prints, is_halted=False),
-        failed=None,
+        notifications=None,
         is_held=lambda: is_held,
     )
     assert (recovery.refusal() is not None) is is_refused

@@ -79,7 +79,7 @@ def test_says_that_it_waits(version, doing, told):
     notices = []
     notifications = SimpleNamespace(tell=lambda *notice: notices.append(notice))
     machine = Machine({"boards": [{"firmwareVersion": version}]})
-    recovery = Recovery(dict, None, lambda: machine, notifications=notifications)
+    recovery = Recovery(dict, None, lambda: machine, notifications=notifications, is_held=bool)
     recovery.halted(doing)
     assert recovery.is_wanted
     assert notices == told

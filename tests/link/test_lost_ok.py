@@ -45,7 +45,11 @@ class Rig:
         self.link = SerialLink(dict, dict, lambda: self.now)
         card = SimpleNamespace(is_talking=False, reword=lambda line: line)
         self.received = ReceivedLines(
-            self.link, card, lambda *note: None, guards=lambda error: False
+            self.link,
+            card,
+            lambda *note: None,
+            guards=lambda error: False,
+            patience=SimpleNamespace(feed=lambda comm: ""),
         )
         self._sent = SentCommands(
             self.link,

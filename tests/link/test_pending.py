@@ -28,7 +28,7 @@ class Rig:
         self.link = SerialLink(dict, dict, lambda: self.now)
         self.link.is_known_now(self.comm)
         store = SimpleNamespace(model={})
-        follower = SimpleNamespace(store=store, behind=False)
+        follower = SimpleNamespace(store=store, behind=False, live_keys=())
         self.known = Known(follower, self.link, lambda: self.now)
         self.ask()
 

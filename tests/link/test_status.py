@@ -12,7 +12,12 @@ from octoprint_rrfmodel.link.status import PluginStatus, worth_telling
 
 def state_of(doing):
     follower = SimpleNamespace(
-        protocol="M409", ready=True, resets=0, counters={}, store=SimpleNamespace(revision=1)
+        protocol="M409",
+        ready=True,
+        resets=0,
+        counters={},
+        too_large=(),
+        store=SimpleNamespace(revision=1),
     )
     return PluginStatus(
         lambda: "1",

@@ -36,10 +36,6 @@ TO_THE_END = frozenset(("M23", "M28", "M30", "M32", "M36", "M37", "M38", "M117")
 """Commands whose text goes on to the end of the line, whatever stands in it."""
 
 
-SECRETIVE = ("M551", "M586.4", "M587", "M589")
-"""Commands with a password among their parameters."""
-
-
 class Row(NamedTuple):
     """One line of the table."""
 
@@ -161,12 +157,6 @@ def what_of(line: str) -> str:
             if gcode in row.gcodes and row.hits(command):
                 return row.what
     return OTHER
-
-
-def shown(command: str) -> str:
-    """Return a command as anybody may see it: of those that take a secret only the name."""
-    gcode = command.lstrip().partition(" ")[0]
-    return gcode if gcode.startswith(SECRETIVE) else command
 
 
 def _commands(line: str) -> Iterator[tuple[str, str]]:
