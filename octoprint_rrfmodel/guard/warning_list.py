@@ -2,8 +2,8 @@
 
 from ..host.warning_texts import paused_text, waiting_text
 from ..host.warnings import ALL_LEVELS, ORDER, PRINT_PAUSED, warning
-from ..rrf.gcode.doing import shown
 from ..rrf.views.warnings import UNANSWERABLE, warnings_of
+from ..rrf.wire.masking import masked
 
 SILENT_SECONDS = 120.0
 """Silence of the line that is worth telling of: most commands that take long are through."""
@@ -48,7 +48,7 @@ class WarningList:
         doing = self._link.doing()
         if doing is None or self._boxes.is_open or self._link.silent_for() < SILENT_SECONDS:
             return []
-        return [warning(SILENT, {"command": shown(doing.command)})]
+        return [warning(SILENT, {"command": masked(doing.command)})]
 
     def _paused(self):
         pause = self._guard.pause()
