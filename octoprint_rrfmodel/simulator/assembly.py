@@ -13,6 +13,7 @@ from .device.boxes import MessageBoxes
 from .device.card import Card
 from .device.emergency import Emergency
 from .device.events import Events
+from .device.extrusion import ExtrusionWarnings
 from .device.incidents import DriveFaults, HeaterFault, UnaskedBox
 from .device.job import Job
 from .device.live_members import LiveMembers
@@ -42,6 +43,7 @@ from .gcodes.queries.m408_values import Names, Values
 from .gcodes.queries.object_model import ObjectModelCode
 from .gcodes.queries.old_status import OldStatus
 from .gcodes.queries.reports import Reports
+from .gcodes.queries.settings import Settings
 from .gcodes.spindles import Spindles
 from .gcodes.storage.files import Files
 from .gcodes.storage.information import Information
@@ -107,6 +109,7 @@ class Assembly:
         self.card = Card()
         self.activity = Activity()
         self.motion = Motion(model, clock)
+        self.warnings = ExtrusionWarnings(clock, output)
         self.power = Power(model, self.motion)
         self.thermal = Thermal(model, self.power, clock)
         self.boxes = MessageBoxes(model, clock)
@@ -160,6 +163,7 @@ class Assembly:
             firmware=self.firmware,
             clock=self.clock,
             output=self.output,
+            job=self.job,
         )
         self.macros = Macros(
             activity=self.activity,
@@ -185,7 +189,14 @@ class Assembly:
             Accepted(),
             macros,
             MetaCommands(model, self.decoder, output),
-            Moves(model=model, motion=motion, thermal=thermal, job=job, clock=clock, output=output),
+            Moves(
+                model=model,
+                motion=motion,
+                thermal=thermal,
+                job=job,
+                clock=clock,
+                warnings=self.warnings,
+            ),
             Coordinates(model, motion),
             Homing(model=model, motion=motion, clock=clock, macros=macros),
             Factors(model, motion),
@@ -195,7 +206,7 @@ class Assembly:
                 motion=motion,
                 thermal=thermal,
                 clock=clock,
-                activity=self.activity,
+                macros=macros,
                 firmware=firmware,
             ),
             Filaments(model=model, motion=motion, card=card, macros=macros),
@@ -207,7 +218,7 @@ class Assembly:
             BoxCodes(
                 clock=clock, firmware=firmware, boxes=self.boxes, faults=faults, output=output
             ),
-            Reports(model=model, live=live, motion=motion, thermal=thermal),
+            Reports(model=model, clock=clock, live=live, motion=motion, thermal=thermal),
             Identity(model=model, clock=clock, firmware=firmware, mainboard=self.mainboard),
             ObjectModelCode(
                 model=model,
@@ -216,11 +227,12 @@ class Assembly:
                 firmware=firmware,
                 faults=faults,
             ),
+            Settings(model=model, motion=motion, thermal=thermal, card=card, firmware=firmware),
             OldStatus(live, values),
             Listing(card, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
             Information(model=model, card=card, job=job, model_text=self.model_text),
-            Prints(job=job, card=card, motion=motion, clock=clock, macros=macros, live=live),
+            Prints(job=job, card=card, motion=motion, macros=macros, live=live, output=output),
             System(
                 model=model,
                 clock=clock,
@@ -240,6 +252,7 @@ class Assembly:
             self.object_model.restart,
             self.activity.restart,
             self.motion.restart,
+            self.warnings.restart,
             self.power.restart,
             self.thermal.restart,
             self.boxes.restart,

@@ -59,11 +59,11 @@ def xyz(x: float, y: float, z: float) -> list[dict[str, Any]]:
 
 
 def bed(sensor: int, limit: float = 125.0) -> dict[str, Any]:
-    return parts.heater(sensor, limit, heating_rate=0.45, cooling_rate=0.21, dead_time=2.8)
+    return parts.heater(sensor, limit, heating_rate=0.76, cooling_rate=0.4, dead_time=2.8)
 
 
 def hotend(sensor: int, limit: float = 290.0) -> dict[str, Any]:
-    return parts.heater(sensor, limit, heating_rate=2.2, cooling_rate=0.55, dead_time=5.1)
+    return parts.heater(sensor, limit, heating_rate=4.545, cooling_rate=0.91, dead_time=2.0)
 
 
 VARIABLES = {

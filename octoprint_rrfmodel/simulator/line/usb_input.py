@@ -34,10 +34,11 @@ class UsbInput:
         return waiting < RECEIVE_BUFFER
 
     def receive(self, data: bytes) -> None:
-        """Take bytes, and cut them at CR and LF, both of which end a line."""
+        """Take bytes, and cut them at CR, LF and NUL, each of which ends a line."""
         self._bytes += data
-        if b"\r" in self._bytes:
-            self._bytes = self._bytes.replace(b"\r", b"\n")
+        for end in (b"\r", b"\x00"):
+            if end in self._bytes:
+                self._bytes = self._bytes.replace(end, b"\n")
         *lines, rest = self._bytes.split(b"\n")
         if not lines:
             return

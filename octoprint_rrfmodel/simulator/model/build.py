@@ -90,10 +90,11 @@ def _move(machine: Machine, queue_length: int, is_duet2: bool) -> dict[str, Any]
         "shaping": {
             "amplitudes": [],
             "damping": 0.1,
-            "delays": [],
+            "delays": [0.0],
             "durations": [],
             "frequency": 40.0,
             "minimumAcceleration": 10.0,
+            "reductionLimit": 0.25,
             "type": "none",
         },
         "speedFactor": 1.0,
@@ -114,7 +115,7 @@ def _state(machine: Machine, axes: int) -> dict[str, Any]:
         "displayMessage": "",
         "gpOut": [{"freq": 500, "pwm": 0.0} for _ in range(machine.gp_out)],
         "laserPwm": None,
-        "logFile": None,
+        "logFile": "",
         "logLevel": "off",
         "machineMode": machine.mode,
         "macroRestarted": False,
@@ -206,6 +207,8 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     """Return a new object model of that machine, as after ``config.g``, clocks at zero."""
     board = mainboard(machine, firmware)
     move = _move(machine, board.queue_length, board.is_duet2)
+    if firmware.at_least(3, 6):
+        move["shaping"]["amplitudes"] = [1.0]
     axes = len(move["axes"])
     seqs: dict[str, Any] = {name: 0 for name in SEQS.split()}
     seqs["volChanges"] = [0, 0]
