@@ -56,6 +56,7 @@ from .interpreter.decoder import Decoder
 from .interpreter.execution import Interpreter
 from .interpreter.macros import Macros
 from .interpreter.table import GCodes
+from .interpreter.urgent import Urgent
 from .line.channel import Channel
 from .line.output import Output
 from .line.plug import Plug
@@ -165,6 +166,14 @@ class Assembly:
             output=self.output,
             job=self.job,
         )
+        if self.firmware.looks_at_usb:
+            urgent = Urgent(
+                gcodes=self.gcodes,
+                decoder=self.decoder,
+                emergency=self.emergency,
+                usb=self.channels["USB"],
+            )
+            self.usb_input.takes = urgent.takes
         self.macros = Macros(
             activity=self.activity,
             card=self.card,

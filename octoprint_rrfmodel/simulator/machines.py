@@ -267,5 +267,9 @@ def machine_called(name: str) -> Machine:
 
 
 def mainboard(machine: Machine, firmware: Firmware) -> Mainboard:
-    """Return the board; firmware for a Duet 2 only makes it one."""
-    return DUET2_WIFI if firmware.needs_duet2 else machine.board
+    """Return the board: a Duet 2 for firmware for nothing else, none for firmware without it."""
+    if firmware.needs_duet2:
+        return DUET2_WIFI
+    if machine.board.is_duet2 and not firmware.has_duet2:
+        return MINI5PLUS
+    return machine.board

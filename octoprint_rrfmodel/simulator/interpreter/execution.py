@@ -112,6 +112,7 @@ class Interpreter:
         line = parse_line(text, self._firmware.has_crc, channel.requires_checksum)
         if line is None or line.text.startswith(IGNORED):
             return
+        channel.line_number = line.number
         if line.number is not None:
             channel.input["lineNumber"] = line.number
         if channel.upload is not None and not _END_OF_UPLOAD.match(line.text):
@@ -217,6 +218,7 @@ class Interpreter:
 
     def _answer(self, channel: Channel, reply: Reply, is_last: bool) -> None:
         channel.current = None
+        reply = self._with_line_number(channel, reply)
         if not channel.echoes:
             if reply.text and reply.kind is not Kind.NONE:
                 self._output.text(reply.text + "\n")
@@ -225,6 +227,13 @@ class Interpreter:
         text = framed(reply, channel.input["compatibility"], is_last, in_macro)
         if text:
             channel.write(text)
+
+    def _with_line_number(self, channel: Channel, reply: Reply) -> Reply:
+        """Return a reply in JSON with the number of the line it answers, first (RRF #1178)."""
+        is_named = self._firmware.names_line and channel.line_number is not None
+        if not is_named or not reply.text.startswith('{"'):
+            return reply
+        return Reply(f'{{"line":{channel.line_number},{reply.text[1:]}', reply.kind)
 
     def macro(self, channel: Channel, lines: list[str]) -> Running:
         """Run lines as a macro of the current command; their replies get no ``ok``."""

@@ -53,6 +53,8 @@ class Channel:
         self.is_lost_in_box = False
         """Whether its macro waits for an answer to a box that none can be given to."""
         self.is_stuck = False
+        self.line_number: int | None = None
+        """Number of the line that is being run, ``None`` without one."""
         self.line_count = 0
         """Lines received since the restart."""
         self.blocked_since: float | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 from ..clock import Clock
 from .channel import Channel
@@ -22,6 +22,8 @@ class UsbInput:
     """The receive buffer in front of the USB channel, and the log of what has come in."""
 
     def __init__(self, clock: Clock, channel: Channel):
+        self.takes: Callable[[str, bool], bool] | None = None
+        """Called with a line and whether the input has room, says whether it is done with."""
         self._clock = clock
         self._channel = channel
         self._bytes = bytearray()
@@ -47,6 +49,8 @@ class UsbInput:
             if line:
                 text = line.decode("utf-8", "surrogateescape")
                 self.log.append(Received(self._clock.now, text))
+                if self.takes is not None and self.takes(text, self.has_room):
+                    continue
                 self._channel.lines.append(text)
 
     def discard(self) -> None:

@@ -207,6 +207,8 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     """Return a new object model of that machine, as after ``config.g``, clocks at zero."""
     board = mainboard(machine, firmware)
     move = _move(machine, board.queue_length, board.is_duet2)
+    if firmware.at_least(3, 7) and move["kinematics"]["name"] == "delta":
+        move["kinematics"]["name"] = "linearDelta"
     if firmware.at_least(3, 6):
         move["shaping"]["amplitudes"] = [1.0]
     axes = len(move["axes"])
