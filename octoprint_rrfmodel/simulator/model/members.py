@@ -66,6 +66,9 @@ _OLD = {
         move.shaping.minimumAcceleration
     """,
     UNTIL_34: """
+        move.compensation.probeGrid.xMax move.compensation.probeGrid.xMin
+        move.compensation.probeGrid.xSpacing move.compensation.probeGrid.yMax
+        move.compensation.probeGrid.yMin move.compensation.probeGrid.ySpacing
         directories.scans job.firstLayerDuration job.timesLeft.layer move.workspaceNumber
         scanner seqs.scanner sensors.probes[].speed sensors.probes[].temperatureCoefficient
     """,
