@@ -46,6 +46,7 @@ _MASKS = (
     (re.compile(r"SD printing byte \d+/\d+"), "SD printing byte <n>"),
     (re.compile(r"(partition size|free space) [\d.]+GB"), r"\1 <bytes>"),
     (re.compile(r'"(capacity|partitionSize|free)":\d+'), r'"\1":<bytes>'),
+    (re.compile(r'"(?:ledStrips|reply)":\d+,'), ""),
     (re.compile(r"(Heater \d+ fault: ).*"), r"\1<why>"),
     (re.compile(r"\d+ points probed, .*"), "<n> points probed"),
     (re.compile(r"(Printing paused at X).*"), r"\1<mm>"),

@@ -130,3 +130,14 @@ def test_what_is_not_read_is_lost(bench):
     assert board.send("M105").startswith("ok ")
     board.board.receive(b"M105\n")
     assert board.wait(1).startswith("ok ")
+
+
+def test_a_resumed_print_goes_back_to_where_it_was(bench):
+    board = bench().homed()
+    board.board.card.write("0:/gcodes/up.gcode", "G1 X20 Z1 F3000\nG4 S5\n")
+    board.send('M32 "up.gcode"')
+    board.wait(3)
+    board.done("M25")
+    assert board.board.model["move"]["axes"][2]["machinePosition"] == 6
+    assert board.done("M24").endswith("Printing resumed\nok\n")
+    assert board.board.model["move"]["axes"][2]["machinePosition"] == 1

@@ -176,7 +176,6 @@ OTHER_COURSE = {
     "buffers-m122": "diagnostics are those of a build",
     "m122": "diagnostics are those of a build",
     "filament-error-host-stream": "filament monitors of M591 aren't simulated",
-    "g4-after-m105": "seqs of what the recorded build lacks",
     "queue-full-after-m105": "3.6 takes half a second longer for the first move",
     "sd-print-pause-resume-cancel": "in which move a pause falls",
     "usb-t0-while-sd-prints": "the whole print takes some seconds more",

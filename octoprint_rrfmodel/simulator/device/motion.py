@@ -13,6 +13,8 @@ from ..model.tree import ObjectModel
 LONG_QUEUE, SHORT_QUEUE = 2.0, 0.5
 """Seconds of waiting moves from which the queue takes no more."""
 USUAL_ACCELERATION = 1000.0
+RETURN_SPEED = 100.0
+"""mm/s"""
 
 
 def _seconds(distance: float, speed: float, acceleration: float, jerk: float) -> float:
@@ -237,6 +239,11 @@ class Motion:
         self._target = self.target()
         for index, value in position.items():
             self.axes[index]["machinePosition"] = self._target[index] = value
+
+    def go_back(self, target: Sequence[float]) -> None:
+        """Move to where the axes have been before, as fast as they may."""
+        if len(target) == len(self.axes):
+            self.queue(target, [0.0] * len(self.extruders), RETURN_SPEED)
 
     def drop_waiting(self) -> int | None:
         """Drop the print's moves that haven't begun; return where in the file the first is from."""

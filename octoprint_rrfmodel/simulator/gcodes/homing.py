@@ -50,8 +50,10 @@ class Homing:
                 axes[index]["homed"] = False
             self._model.bump("move")
             at_end = self._motion.is_delta
-            for index in indexes:
-                yield Silently(self._clock.after(HOMING_SECONDS))
+            started = self._clock.now
+            for done, index in enumerate(indexes, 1):
+                left = started + done * HOMING_SECONDS - self._clock.now
+                yield Silently(self._clock.after(left))
                 axis = axes[index]
                 axis["homed"] = True
                 self._motion.jump({index: self._homed_position(index, at_end)})

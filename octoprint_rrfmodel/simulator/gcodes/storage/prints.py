@@ -34,6 +34,7 @@ class Prints:
         self._card = card
         self._motion = motion
         self._output = output
+        self._paused_at: list[float] = []
         self._macros = macros
         self._live = live
 
@@ -108,6 +109,9 @@ class Prints:
             if self._motion.is_homed:
                 yield from self._macros.system(channel, "resume.g")
             yield Silently(self._motion.has_stopped)
+            # back to where the print was (RRF 3.5 GCodes4.cpp, resuming2)
+            self._motion.go_back(self._paused_at)
+            yield Silently(self._motion.has_stopped)
         self._job.state = jobs.PRINTING
         return "Printing resumed"
 
@@ -131,6 +135,7 @@ class Prints:
         self._motion.save_restore_point(1)
         yield Silently(self._motion.has_stopped)
         self._live.refresh()
+        self._paused_at = self._motion.target()
         where = " ".join(
             f"{axis['letter']}{axis['userPosition']:.1f}" for axis in self._motion.axes
         )
