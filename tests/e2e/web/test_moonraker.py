@@ -154,7 +154,7 @@ def test_a_print_of_octoprints_is_the_job(server, board):
     assert seen["print_stats"]["filename"] == "streamed.gcode"
     assert seen["virtual_sdcard"]["is_active"] is True
     server.post("/api/job", json={"command": "pause", "action": "pause"})
-    server.wait_for(lambda: queried()["print_stats"]["state"] == "paused", 15, "the pause")
+    server.wait_for(lambda: queried()["print_stats"]["state"] == "paused", 45, "the pause")
     assert queried()["virtual_sdcard"]["is_active"] is False
     server.wait_state("Paused")
     server.post("/api/job", json={"command": "pause", "action": "resume"})
