@@ -40,7 +40,18 @@ class PushListener:
         self._socket.settimeout(None)
         self._thread.start()
         wait_for(lambda: self.messages, 10, "the first push message")
+        if self._user is not None:
+            self._wait_until_registered()
         return self
+
+    def _wait_until_registered(self) -> None:
+        """Guarantee that events from now on reach this socket.
+
+        OctoPrint subscribes a socket to its events right after it has sent the history. One thread
+        does that and takes requests, so that an answer to one says that it is through.
+        """
+        wait_for(lambda: "history" in dict(self.messages), 10, "the history")
+        self._server.get("/api/version")
 
     def __exit__(self, *exc_info: object) -> None:
         self._socket.shutdown()

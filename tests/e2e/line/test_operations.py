@@ -79,8 +79,6 @@ def test_what_is_refused_is_told(machine, refusals):
     if machine.board.tools():
         machine.ask("tool", command="select", tool="tool1")
     with PushListener(machine.server, ADMIN) as push:
-        # from here on the login counts
-        push.wait_for_plugin(bool)
         for code, (path, request) in refusals.items():
             assert machine.wire(path, **request) == []
             notice = push.wait_for_plugin(lambda found, code=code: found.get("code") == code)

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
 
 BAUD = 115200
 SHARE = 0.05
-WATCHED_POLLS = 6
+WATCHED_POLLS = 4
 
 
 @pytest.fixture

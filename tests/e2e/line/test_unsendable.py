@@ -72,8 +72,6 @@ def test_sent_as_it_is(server, connected, line):
 def test_blocking_box_by_firmware(server, connected, firmware, is_sent):
     board = connected(firmware=firmware)
     with PushListener(server, ADMIN) as push:
-        # from here on the login counts
-        push.wait_for_plugin(bool)
         assert arrived(server, board, BLOCKING_BOX) == ([BLOCKING_BOX] if is_sent else [])
         if not is_sent:
             notice = push.wait_for_plugin(lambda found: found.get("code") == "message_box")
@@ -109,8 +107,6 @@ def test_streamed(server, connected):
         lines += [f"G4 P{number}", stop]
     server.upload("odd.gcode", "\n".join([*lines, f"G4 P{len(stops)}"]) + "\n")
     with PushListener(server, ADMIN) as push:
-        # from here on the login counts
-        push.wait_for_plugin(bool)
         server.select_and_print("odd.gcode")
         for number, stop in enumerate(stops):
             server.wait_state("Paused", 20)
