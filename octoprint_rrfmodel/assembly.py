@@ -13,11 +13,8 @@ from octoprint.events import Events
 
 from .control.machine_commands import MachineCommands
 from .control.rate import Rate
-from .guard.message_boxes import MessageBoxes
+from .guard.guards import make_guards
 from .guard.notifications import Notifications
-from .guard.print_guard import PrintGuard
-from .guard.recovery import Recovery
-from .guard.warning_list import WarningList
 from .host.notes import NOTES
 from .host.request_checks import RequestChecks
 from .host.setup import Setup
@@ -29,9 +26,9 @@ from .link.known import Known
 from .link.listeners import Listeners
 from .link.poller import Poller
 from .link.questions import Questions
+from .link.reports import TemperatureReports
 from .link.serial.display import Display
-from .link.serial.operation_translator import OperationTranslator
-from .link.serial.queued import QueuedCommands
+from .link.serial.patience import Patience
 from .link.serial.received import ReceivedLines
 from .link.serial.sdcard import SdCard
 from .link.serial.sdjob import SdJob
@@ -39,7 +36,7 @@ from .link.serial.sdupload import UploadRefusal
 from .link.serial.sent import SentCommands
 from .link.serial.serial_link import SerialLink
 from .link.serial.simulated_port import SimulatedPort
-from .link.serial.unsendable_commands import UnsendableCommands
+from .link.serial.way_out import queued_commands
 from .link.status import PluginStatus
 from .link.terminal import TerminalFilter
 from .link.worker import Worker
@@ -78,33 +75,19 @@ class Assembly:
         self._follower = Follower()
         self._known = Known(self._follower, self.link, self._clock)
         self.model = self._known.model
+        self._reports = TemperatureReports(self._follower, self._known, self._listeners.warmed)
         self._notifications = Notifications(host.tell_pages, self._clock)
         self.setup = Setup(host, self.link, self._known)
         """What the settings page and the first-run wizard show."""
 
     def _make_guard(self):
-        host, model = self._host, self._known.model
-        self._boxes = MessageBoxes(model, self._clock)
-        self._guard = PrintGuard(
-            host.printer,
-            self.link.has_a_print,
-            model,
-            is_on=host.is_set,
-            tell=self._notifications.tell,
-        )
-        self._recovery = Recovery(
-            host.printer,
+        self._boxes, self._guard, self._recovery, self._warnings = make_guards(
+            self._host,
             self.link,
-            self._known.machine,
-            failed=self._notifications.did_not_come_back,
-        )
-        self._warnings = WarningList(
-            model,
-            self.link,
-            self._guard,
-            recovery=self._recovery,
-            boxes=self._boxes,
+            self._known,
+            notifications=self._notifications,
             problems=self.setup.problems,
+            clock=self._clock,
         )
 
     def _make_card_and_poller(self):
@@ -164,7 +147,7 @@ class Assembly:
 
     def _make_integrations(self):
         host, model = self._host, self._known.model
-        self._events = MachineEvents(host.fire, self._known)
+        self._events = MachineEvents(host.fire, self._known, self._boxes)
         self._plugin_subscribers = PluginSubscribers(host.plugins, model)
         self.other_plugins = OtherPlugins(
             host,
@@ -185,23 +168,21 @@ class Assembly:
 
     def _make_hooks(self):
         host, notify = self._host, self.worker.notify
-        refused = partial(notify, "refused_operation")
-        is_translated = partial(host.is_set, "operations")
-        operations = OperationTranslator(self._known.machine, is_translated, refused)
-        unsendable = UnsendableCommands(
-            self._known.machine, is_translated, refused, paused=partial(notify, "print_waits")
-        )
         self.display = Display(self.link, self._known, self._poller.is_stale, fire=host.fire)
-        self.received = ReceivedLines(self.link, self._card, notify, guards=self._guard.handles)
-        self.queued = QueuedCommands(
+        self.received = ReceivedLines(
             self.link,
+            self._card,
             notify,
-            unsendable.instead,
-            translators=(
-                self.other_plugins.prompt.translate,
-                self._card.translate,
-                operations.translate,
-            ),
+            guards=self._guard.handles,
+            patience=Patience(self.link, host.silence_minutes, self._boxes.holds_the_line),
+        )
+        self.queued = queued_commands(
+            self.link,
+            self._card,
+            self._known.machine,
+            notify=notify,
+            is_on=partial(host.is_set, "operations"),
+            prompts=self.other_plugins.prompt.translate,
         )
         self.sent = SentCommands(
             self.link,
@@ -256,6 +237,7 @@ class Assembly:
             "line": self._listeners.line,
             "heard": self._listeners.heard,
             "reply": poller.reply,
+            "report": self._reports.take,
             "refused": poller.refused,
             "poll_sent": poller.poll_sent,
             "poll_acknowledged": poller.poll_acknowledged,

@@ -86,4 +86,5 @@ class MachineCommands:
             octoprint_is_paused=link.is_paused(),
             answers_boxes=not self._boxes.is_waiting,
             box_is_answered=self._boxes.is_answered(),
+            line_is_held=self._boxes.holds_the_line(),
         )

@@ -8,16 +8,27 @@ ANSWER_SECONDS = 10.0
 """Time after which an answer to a message box is no longer waited for."""
 
 
+BOX_WAITS = "box_waits"
+"""The code of the notification that nothing goes on until somebody answers elsewhere."""
+
+AT_WORK = ("heating", "long_command")
+"""Why no poll goes out while a command is under way that may have opened a box."""
+
+
 class MessageBoxes:
     """Remembers that the firmware asked for M292, until it answers something else again.
 
     A macro that OctoPrint has started holds the line while its box is open, so that no reply can
-    tell of it. ``model()`` is the snapshot.
+    tell of it. From 3.5.0 to 3.6.0 nothing that is sent over this line ends it, and nothing but
+    text comes back: somebody answers elsewhere, or restarts the board. ``model()`` is the snapshot,
+    ``link`` the line, ``tell(code)`` reaches the pages.
     """
 
-    def __init__(self, model, clock):
+    def __init__(self, model, clock, *, link, tell):
         self._model = model
         self._clock = clock
+        self._link = link
+        self._tell = tell
         self._opened_at = None
         self._answered, self._answered_at = None, 0.0
 
@@ -25,6 +36,10 @@ class MessageBoxes:
     def is_open(self):
         """Whether nobody can answer the box over this line."""
         return self._opened_at is not None
+
+    def holds_the_line(self):
+        """Return whether the line waits for somebody to answer a box; any thread may ask."""
+        return self.is_open and self._link.blocked() in AT_WORK
 
     @property
     def is_waiting(self):
@@ -36,7 +51,10 @@ class MessageBoxes:
     def heard(self, what):
         """Note the text that comes with a box."""
         if what == "box" and loses_boxes(Machine(self._model()).version):
+            was_open = self.is_open
             self._opened_at = self._clock()
+            if not was_open and self.holds_the_line():
+                self._tell(BOX_WAITS)
 
     def replied(self, taken, asked_at):
         """Note a reply: asked for after the text, it shows that the line is free."""

@@ -1,6 +1,7 @@
 """What a person is told once, on every open page."""
 
 from ..host.notification_texts import notification_text
+from ..rrf.wire.masking import masked
 
 
 class Notifications:
@@ -11,7 +12,8 @@ class Notifications:
         self._clock = clock
 
     def tell(self, code, detail=""):
-        """Tell of a refusal, or of what has happened."""
+        """Tell of a refusal, or of what has happened; never a password that stands in a command."""
+        detail = masked(detail)
         self._tell_pages(
             {
                 "type": "notice",

@@ -9,7 +9,15 @@ from octoprint.access.permissions import Permissions
 
 from ..host.answers import refusal
 from ..host.warning_texts import waiting_text, warning_text
-from ..rrf.views.warnings import OFF, POSITION_LOST, RESET, faults, is_resumable, is_unhomed
+from ..rrf.views.warnings import (
+    OFF,
+    POSITION_LOST,
+    RESET,
+    faults,
+    is_resumable,
+    is_unhomed,
+    said,
+)
 from ..rrf.wire.errors import guarded_warning
 
 JOB_ENDPOINT = "api.controlJob"
@@ -77,6 +85,9 @@ class PrintGuard:
         causes = self.causes()
         self._was_off |= any(cause.code == OFF for cause in causes)
         self._told &= frozenset(causes)
+        self._pause_for(causes)
+
+    def _pause_for(self, causes):
         printer = self._printer()
         # what has begun to end or to pause needs nothing; cancelling is what a person wants
         if not causes or printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
@@ -102,6 +113,14 @@ class PrintGuard:
     def replied(self, taken, asked_at):
         """Look at the model that a reply has changed."""
         self.look()
+
+    def line(self, text):
+        """Pause for a fault that the firmware says in words; not every model shows each.
+
+        When it is over nobody can tell: somebody has to look, and may then resume.
+        """
+        if self.has_print():
+            self._pause_for([each for each in said(text, self._model()) if self._is_on(each.code)])
 
     def heard(self, what):
         """Note that a line of text tells of a new beginning of the board."""

@@ -3,6 +3,13 @@
 from ..host.warning_texts import paused_text, waiting_text
 from ..host.warnings import ALL_LEVELS, ORDER, PRINT_PAUSED, warning
 from ..rrf.views.warnings import UNANSWERABLE, warnings_of
+from ..rrf.wire.masking import masked
+
+SILENT_SECONDS = 120.0
+"""Silence of the line that is worth telling of: most commands that take long are through."""
+
+SILENT = "silent"
+"""The code of the warning that tells of it."""
 
 
 class WarningList:
@@ -32,9 +39,16 @@ class WarningList:
         warnings = [
             *self._paused(),
             *map(_in_form, found),
+            *self._silence(),
             *map(warning, self._problems()),
         ]
         return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
+
+    def _silence(self):
+        doing = self._link.doing()
+        if doing is None or self._boxes.is_open or self._link.silent_for() < SILENT_SECONDS:
+            return []
+        return [warning(SILENT, {"command": masked(doing.command)})]
 
     def _paused(self):
         pause = self._guard.pause()

@@ -31,3 +31,7 @@ class Host(NamedTuple):
     def simulator(self):
         """Return the settings of the simulated board."""
         return self.settings().get(["simulator"], merged=True)
+
+    def silence_minutes(self):
+        """Return how long the board may say nothing during a long command, 0 for no limit."""
+        return self.settings().get_float(["silence_minutes"], min=0.0) or 0.0

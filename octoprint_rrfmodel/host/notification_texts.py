@@ -20,9 +20,27 @@ def notification_text(code, detail):
             "Not sent, the printer would not acknowledge it: %(detail)s. Use the machine's own"
             " console."
         ),
+        "asterisk": gettext(
+            "Not sent, the printer would take the asterisk for a checksum and drop the line:"
+            " %(detail)s. Put the text in quotes, or leave the asterisk out."
+        ),
+        "heaters_off": gettext(
+            "The print was cancelled. These heaters, which OctoPrint's script does not know, were"
+            " switched off too: %(detail)s."
+        ),
+        "box_waits": gettext(
+            "A message of the machine waits for an answer that this firmware does not take over"
+            " USB. Answer on the machine's own page or panel, and everything goes on by itself; or"
+            " restart the machine."
+        ),
         "print_paused": gettext("The print was paused. %(detail)s"),
         "board_reset": gettext(
             "The board was reset. Its axes have to be homed again, and its heaters are off."
+        ),
+        "stop_waits": gettext(
+            "The emergency stop was sent, but this firmware reads it only when %(detail)s is"
+            " through. If that is too late, switch the machine off. Firmware 3.6.3 and newer stops"
+            " at once."
         ),
         "recover_failed": gettext(
             "The machine did not come back after its restart. Check its power and cable, then"

@@ -2,6 +2,8 @@
 
 from ..rrf.card.wording import ROWS as WORDING
 from ..rrf.gcode.recognition import ROWS
+from ..rrf.gcode.stops import ROW as STOP
+from ..rrf.gcode.switch_off import ROW as HEATERS_OFF
 from ..rrf.gcode.unsendable import ROWS as UNSENDABLE
 from ..rrf.views.warnings import GUARDS
 
@@ -22,11 +24,15 @@ SIDEBAR = (
 
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
-    "operations": {row.name: True for row in (*ROWS, *UNSENDABLE)},
+    "operations": dict.fromkeys(
+        [*(row.name for row in (*ROWS, *UNSENDABLE)), STOP, HEATERS_OFF], True
+    ),
     # rows of the table of replies that are switched off reach OctoPrint as the firmware has them
     "replies": {row.name: True for row in WORDING},
     # what pauses a print that OctoPrint streams
     "guard": {code: True for code in GUARDS},
+    # minutes that a board may say nothing during a command that takes long; 0: any time
+    "silence_minutes": 60.0,
     # keep the plugin's polls out of the terminal tab
     "hide_polls": True,
     "mqtt": {

@@ -20,6 +20,15 @@ ADAPTED = ("volume.origin", "volume.depth", "volume.custom_box", OFFSETS)
 """What OctoPrint fits by itself to what is written: to a round form, a size, a shared nozzle."""
 
 
+def takes_tool_numbers(profile):
+    """Return whether OctoPrint sends targets with the number of a tool; without a profile it may.
+
+    It doesn't where there is one extruder or one nozzle (printer/standard.py, set_temperature).
+    """
+    extruder = (profile or {}).get("extruder") or {}
+    return extruder.get("count", 2) > 1 and not extruder.get("sharedNozzle")
+
+
 class PrinterProfile:
     """Compares the profile with the machine's tools, raises its number of extruders, lowers it.
 

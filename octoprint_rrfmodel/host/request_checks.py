@@ -13,6 +13,7 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from .answers import refusal
+from .printer_profile import takes_tool_numbers
 
 PRINTHEAD, TOOL = "api.printerPrintheadCommand", "api.printerToolCommand"
 BED, CHAMBER = "api.printerBedCommand", "api.printerChamberCommand"
@@ -85,6 +86,18 @@ def _by_tool(name, pattern, is_right):
     return holds
 
 
+def _is_carried(data, link):
+    """Return whether OctoPrint takes over the numbers of all tools that are to be heated.
+
+    With one extruder, or one nozzle, it sends the target without a number, which heats another
+    tool.
+    """
+    targets = data.get("targets")
+    if not isinstance(targets, dict) or takes_tool_numbers(link.profile()):
+        return True
+    return all(int(tool[len("tool") :] or 0) == 0 for tool in targets)
+
+
 def _is_name(pattern, value):
     return isinstance(value, str) and re.fullmatch(pattern, value) is not None
 
@@ -107,6 +120,7 @@ CHECKS = (
     Check(
         (TOOL,), ("target",), _by_tool("targets", "tool[0-9]*", _is_target), MALFORMED, "targets"
     ),
+    Check((TOOL,), ("target",), _is_carried, MALFORMED, "one_tool"),
     Check(
         (TOOL,), ("offset",), _by_tool("offsets", "tool[0-9]+", _is_number), MALFORMED, "offsets"
     ),
@@ -155,6 +169,10 @@ def _sentence(name):
         "tool": gettext("The tool has to be called tool0, tool1 and so on."),
         "targets": gettext(
             "The targets have to be numbers that aren't negative, by tool0 and so on."
+        ),
+        "one_tool": gettext(
+            "OctoPrint's printer profile has one extruder, or one nozzle for all: it would heat"
+            " another tool. Set the number of extruders in the printer profile, or heat tool0."
         ),
         "offsets": gettext("The offsets have to be numbers, by tool0 and so on."),
         "amount": gettext("The amount has to be a number."),

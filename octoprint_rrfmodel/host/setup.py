@@ -21,18 +21,21 @@ class Setup:
     """
 
     def __init__(self, host, link, known):
+        self._own = host.settings
         self.settings = OctoPrintSettings(
-            host.settings, Journal(host.folder, "changed_settings.json")
+            host.settings, Journal(self._base, host.folder, "changed_settings.json")
         )
         self._profile = PrinterProfile(
             host.profiles,
             link.profile,
             known.model,
-            changes=Journal(host.folder, "changed_profiles.json"),
+            changes=Journal(self._base, host.folder, "changed_profiles.json"),
         )
-        self._own = host.settings
         self._link = link
         self._known = known
+
+    def _base(self):
+        return self._own().global_get_basefolder("base")
 
     def problems(self):
         """Return the codes of the warnings that are due."""

@@ -56,6 +56,11 @@ def _of_the_machine():
             "The machine waits for an answer that this firmware does not take over USB. Answer on"
             " the machine's own page or panel, or reset the machine."
         ),
+        "silent": gettext(
+            "The machine has said nothing for minutes and is taken to be busy with %(command)s. If"
+            " it is not, restart it or disconnect; by itself the connection ends after the time in"
+            " the plugin's settings."
+        ),
         "startup_error": gettext(
             "Line %(line)s of %(file)s failed when the machine started: %(message)s"
         ),

@@ -19,6 +19,7 @@ ORDER = (FAULT, WARNING, ADVICE)
 
 FIXES = {
     "halted": "recover",
+    "message_box_unanswerable": "recover",
     "long_running_commands": "fix_settings",
     "uppercase": "fix_settings",
     "unknown_commands": "fix_settings",

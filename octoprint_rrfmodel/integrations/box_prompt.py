@@ -14,6 +14,7 @@ from ..rrf.views.machine import Machine, mapping
 from ..rrf.views.prompt import END, answer, prompt
 from ..rrf.views.warnings import UNANSWERABLE, warnings_of
 from ..rrf.wire.gcode_words import words
+from ..rrf.wire.masking import masked
 
 PROMPT_PLUGIN = "action_command_prompt"
 PROMPT_COMMAND = "M876"
@@ -79,7 +80,7 @@ class BoxPrompt:
         if is_one and shown and box.get("seq") == shown["seq"]:
             line = answer(shown, int(index), Machine(self._model()).version)
         if line is None:
-            self._logger.info("Not sending %r: it answers no message box", cmd)
+            self._logger.info("Not sending %r: it answers no message box", masked(cmd))
             return Lines()
         return Lines((line,))
 

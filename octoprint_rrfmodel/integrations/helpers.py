@@ -1,12 +1,11 @@
 """What other plugins get from ``get_helpers("rrfmodel")``; any thread may call it."""
 
-from concurrent.futures import Future
-
 from ..link.poll_slot import TooManyQueries
 from ..link.questions import refusal_to_send
 from ..rrf import klipper
 from ..rrf.model.frozen import frozen
 from ..rrf.model.keys import value_at
+from .answers import Answer
 
 
 class Helpers:
@@ -44,7 +43,7 @@ class Helpers:
         return frozen(value_at(self._model(), path, default))
 
     def query(self, key, flags=""):
-        """Return a future of the printer's own answer.
+        """Return a future of the printer's own answer; its callbacks may take their time.
 
         Raises ``ValueError`` for a key or flags that can't be sent. The future fails with a
         ``RuntimeError`` that says why, where the printer can't be asked or doesn't answer.
@@ -52,7 +51,7 @@ class Helpers:
         reason = refusal_to_send(key, flags)
         if reason:
             raise ValueError(reason)
-        result = Future()
+        result = Answer()
         reason = self._questions.refusal()
         if reason:
             result.set_exception(RuntimeError(reason))

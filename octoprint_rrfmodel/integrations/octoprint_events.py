@@ -1,6 +1,6 @@
 """What happens on the machine, as events of OctoPrint."""
 
-from ..rrf.views.events import MODEL_READY, NAMES, Chronicle
+from ..rrf.views.events import BOX_UNANSWERABLE, MODEL_READY, NAMES, Chronicle
 
 PREFIX = "plugin_rrfmodel_"
 
@@ -13,17 +13,21 @@ def custom_events(*args, **kwargs):
 class MachineEvents:
     """Fires an event for each thing that happens; a listener.
 
-    ``fire(name, payload)`` is OctoPrint's. ``known`` is what is known of the machine.
+    ``fire(name, payload)`` is OctoPrint's. ``known`` is what is known of the machine, ``boxes`` of
+    message boxes that hold the line.
     """
 
-    def __init__(self, fire, known):
+    def __init__(self, fire, known, boxes):
         self._fire = fire
         self._known = known
+        self._boxes = boxes
+        self._was_held = False
         self._chronicle = Chronicle()
         self._was_ready = False
 
     def replied(self, taken, asked_at):
         """Find out what has happened since the model before."""
+        self._was_held = self._boxes.holds_the_line()
         self._look()
 
     def reset(self):
@@ -37,6 +41,13 @@ class MachineEvents:
         if is_ready and not self._was_ready:
             self._fire(PREFIX + MODEL_READY, {})
         self._was_ready = is_ready
+
+    def heard(self, what):
+        """Tell of a box that holds the line; no model will."""
+        is_held = self._boxes.holds_the_line()
+        if is_held and not self._was_held:
+            self._fire(PREFIX + BOX_UNANSWERABLE, {})
+        self._was_held = is_held
 
     def line(self, line):
         """Take a line of text from the printer."""

@@ -69,6 +69,10 @@ class OtherPlugins:
         if "state" in taken.changes:
             self._worker.notify("look")
 
+    def warmed(self, warmed):
+        """Note temperatures that a line has told."""
+        self._mqtt.changed(warmed.changes)
+
     def reset(self):
         """Note that the model was emptied."""
         self.forgotten()

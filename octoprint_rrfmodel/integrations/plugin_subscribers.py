@@ -51,6 +51,10 @@ class PluginSubscribers:
         """Note what a reply has changed."""
         self._changed(taken.changes)
 
+    def warmed(self, warmed):
+        """Note temperatures that a line has told."""
+        self._changed(warmed.changes)
+
     def reset(self):
         """Note that the model was emptied."""
         self._changed(())

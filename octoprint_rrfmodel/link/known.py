@@ -16,7 +16,7 @@ class Known:
         self._follower = follower
         self._link = link
         self._clock = clock
-        self._live_asked_at = {}
+        self._live = {}
         self.applied_at = None
         """When the last reply was applied; ``None`` before the first of a connection."""
         self.asked_at = 0.0
@@ -35,8 +35,12 @@ class Known:
         return self._follower.ready
 
     def is_current(self):
-        """Return whether the model is newer than all that could have changed the machine."""
-        return self.asked_at > self._link.settled_at and not self._follower.behind
+        """Return whether the model is newer than all that could have changed the machine.
+
+        It isn't while something that could is queued or under way.
+        """
+        is_newer = self.asked_at > self._link.settled_at and not self._follower.behind
+        return is_newer and not self._link.is_changing()
 
     def heat(self):
         """Return what the model says of heat, ``None`` while it says nothing, and of its targets
@@ -50,8 +54,14 @@ class Known:
         return self._clock()
 
     def age(self):
-        """Return the seconds since the last reply that was applied, ``None`` before the first."""
+        """Return the seconds since the last reply that was applied, ``None`` before the first.
+
+        Where live values come one by one it is the oldest of them that counts.
+        """
         applied_at = self.applied_at
+        live = self._live
+        if self._follower.live_keys and live:
+            applied_at = min(applied for _, applied in live.values())
         return None if applied_at is None else self._clock() - applied_at
 
     ##~~ on the worker
@@ -59,17 +69,27 @@ class Known:
     def note(self, request, asked_at):
         """Note that the reply to a request, asked for then, was applied."""
         self.applied_at = self._clock()
+        times = (asked_at, self.applied_at)
         if not isinstance(request, ModelRequest):
-            self._live_asked_at = {"": asked_at}
-        elif request.flags == LIVE_ROOT.flags:
+            self._live = {"": times}
+        elif request.flags.startswith(LIVE_ROOT.flags):
             # all live values at once, or one key of a board without room
-            if not request.key:
-                self._live_asked_at.clear()
-            self._live_asked_at[request.key] = asked_at
-        self.asked_at = min(self._live_asked_at.values(), default=0.0)
+            self._live = self._with_live(request.key, times)
+        self.asked_at = min((asked for asked, _ in self._live.values()), default=0.0)
+
+    def _with_live(self, key, times):
+        """Return the live values by what they came with, the whole until each part is newer."""
+        parts = self._follower.live_keys
+        if not key or not parts:
+            return {key: times}
+        known = {name: at for name, at in self._live.items() if name in ("", *parts)}
+        known[key] = times
+        if known.keys() >= set(parts):
+            known.pop("", None)
+        return known
 
     def forget(self):
         """Know nothing: the connection is gone."""
         self.applied_at = None
-        self._live_asked_at.clear()
+        self._live = {}
         self.asked_at = 0.0

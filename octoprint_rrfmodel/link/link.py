@@ -8,7 +8,7 @@ class Doing(NamedTuple):
     """The command that the line waits for."""
 
     command: str
-    """As it went out."""
+    """As it went out, without passwords and keys."""
     what: str
     """In the public contract's words, its section 2."""
     since: float
@@ -87,10 +87,12 @@ class Link(abc.ABC):
         """Whether there was a board that ``restart`` could reach."""
 
     @abc.abstractmethod
-    def restart(self):
+    def restart(self, is_running):
         """Restart the board and connect again; takes a minute, raises where it doesn't come back.
 
-        The one method that waits: on a thread of whoever calls it.
+        ``is_running()`` says whether the board prints by itself, ``None`` while nobody knows. What
+        somebody has begun meanwhile, here or there, is left alone. The one method that waits: on a
+        thread of whoever calls it.
         """
 
     ##~~ why the board can't be asked, and what it is asked to do
@@ -102,6 +104,14 @@ class Link(abc.ABC):
     @abc.abstractmethod
     def doing(self):
         """Return the command that the line waits for (``Doing``), ``None`` for none."""
+
+    def is_changing(self):
+        """Return whether a command that may home, heat or choose tools waits or is under way."""
+        return False
+
+    def silent_for(self):
+        """Return how many seconds nothing has come while a command is awaited that takes long."""
+        return 0.0
 
     @abc.abstractmethod
     def has_polled(self, command):

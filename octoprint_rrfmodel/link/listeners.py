@@ -4,6 +4,8 @@ A listener is any object that has some of these methods; all are called by the p
 
 * ``identified()``: a board with RepRapFirmware has just told what it is.
 * ``replied(taken, asked_at)``: a reply was applied (``rrf.follow.follower.Taken``).
+* ``warmed(warmed)``: a line has told temperatures while no reply comes
+  (``rrf.follow.follower.Warmed``); the rest of the model is as old as before.
 * ``reset()``: a reply has shown that the board began anew; the model is empty.
 * ``line(text)``: the board has said a line that is neither a reply nor the plugin's own.
 * ``heard(what)``: such a line tells of something (``rrf.wire.heard``).
@@ -39,6 +41,10 @@ class Listeners:
             self._call("reset")
         else:
             self._call("replied", taken, asked_at)
+
+    def warmed(self, warmed):
+        """Tell of temperatures that a line has told, and nothing but those."""
+        self._call("warmed", warmed)
 
     def line(self, text):
         """Tell of a line of text."""

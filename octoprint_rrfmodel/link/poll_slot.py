@@ -5,6 +5,7 @@ import concurrent.futures
 import threading
 
 from ..rrf.follow.asked import answer_to
+from ..rrf.wire.line import NO_BUFFERS
 from ..rrf.wire.reply import MalformedReply
 from ..rrf.wire.request import FileRequest, ListRequest, ModelRequest, PieceRequest
 
@@ -25,9 +26,22 @@ class Poll:
         self.is_card = is_card
         self.queued_at = queued_at
         self.sent_at = None
+        self.number = None
+        """Line number that it went out with, if with any."""
+        self.answered_others = False
+        """Whether a reply that looked like its own told another number."""
         self.acknowledged = False
         self.answered = False
         self.is_about_the_card = isinstance(request, (ListRequest, FileRequest, PieceRequest))
+
+    def may_be_answered_by(self, text, number):
+        """Return whether a reply is of the kind asked for, and to this command if it says so."""
+        if text != NO_BUFFERS and not text.startswith(self.request.begins):
+            return False
+        if None in (number, self.number) or number == self.number:
+            return True
+        self.answered_others = True
+        return False
 
     def is_over(self):
         """Return whether the next poll may leave."""

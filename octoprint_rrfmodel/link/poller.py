@@ -7,9 +7,9 @@ import logging
 import re
 
 from ..rrf.follow.pace import Pace
-from ..rrf.views.machine import Machine
 from ..rrf.wire.line import NO_BUFFERS
-from ..rrf.wire.reply import MalformedReply, decode_page
+from ..rrf.wire.reply import MalformedReply
+from .card_turn import CardTurn
 from .poll_slot import GONE, Poll, Queries, answer_query, fail
 
 ANSWER_SECONDS = 10.0
@@ -21,8 +21,8 @@ QUEUED_SECONDS = 30.0
 NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
 """How firmware of various age says that it hasn't got a command."""
 
-CARD_POLLS_BETWEEN_LIVE = 2
-"""Requests about the card in a row before the model has its turn."""
+ALARMS = frozenset(("fault", "reset"))
+"""What the firmware tells by itself that is a witness to what the model says next."""
 
 STALE_POLLS = 3
 """Poll intervals without news after which the model is stale."""
@@ -38,8 +38,7 @@ class Poller:
 
     def __init__(self, follower, card, link, *, known, replied, clock):
         self.follower = follower
-        self._card = card
-        self._card_polls = 0
+        self._card = CardTurn(card, follower, link)
         self._link = link
         self._known = known
         self._replied = replied
@@ -48,10 +47,12 @@ class Poller:
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.polling")
         self._poll = None
         self._running = False
+        self._knows_numbers = True
         self._next_at = 0.0
         self._hurries = False
         self._queries = Queries()
         self._was_query = False
+        self._held_for = None
         self.query = self._queries.ask
         self.query_for = self._queries.ask_for
         self.connections = 0
@@ -65,6 +66,7 @@ class Poller:
         self._pace.connected(self._link.rate())
         self._running = True
         self._queries.open()
+        self._knows_numbers = True
         self._next_at = self._clock()
         self._link.expects_refusal = self.follower.protocol is None
 
@@ -72,9 +74,11 @@ class Poller:
         """Poll no more and know nothing: the connection is gone."""
         self._running = False
         self._queries.close()
+        if self._poll is not None and not self._poll.answered:
+            self._count("timeouts" if self._poll.sent_at is not None else None)
         if self._poll is not None and self._poll.query is not None:
             fail(self._poll.query, GONE)
-        self._poll = None
+        self._poll = self._held_for = None
         self._known.forget()
         self.follower.forget()
 
@@ -91,6 +95,7 @@ class Poller:
         )
         if self._poll is None and is_due and not self.blocked():
             self._start_poll(now)
+        self._held_for = self.blocked() or self._held_for
         if self._poll is not None or self.blocked():
             return 0.25
         return max(0.01, self._next_at - now)
@@ -103,6 +108,10 @@ class Poller:
         if reason is None and self.follower.short_of_buffers and self._clock() < self._next_at:
             reason = "buffers"
         return reason
+
+    def why_silent(self):
+        """Return what holds polls back, or has until now while the first reply is on its way."""
+        return self.blocked() or (self._held_for if self.is_stale() else None)
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
@@ -127,10 +136,14 @@ class Poller:
 
     ##~~ what the hooks noted
 
-    def poll_sent(self, at):
-        """Note that the poll went out, and when: this note may come late."""
+    def poll_sent(self, at, number=None):
+        """Note that the poll went out, and when: this note may come late.
+
+        ``number`` is its line number, if it went out with one.
+        """
         if self._poll is not None and self._poll.sent_at is None:
             self._poll.sent_at = at
+            self._poll.number = number if self._knows_numbers else None
             self.polls += 1
 
     def poll_acknowledged(self):
@@ -146,26 +159,35 @@ class Poller:
         if not is_model or not NOT_KNOWN.search(line.lower()):
             return
         if poll.request.line.split()[0] in line:
+            self._count("replies")
             self.follower.not_supported()
             self._end(failed=False)
 
-    def reply(self, text):
-        """Take a reply that was found on the line."""
+    def reply(self, text, number=None):
+        """Take a reply that was found on the line; ``number`` is that of the command it answers.
+
+        One to another command than the poll isn't the poll's, whatever it looks like.
+        """
         self.bytes += len(text)
         poll = self._poll
         if poll is None or poll.sent_at is None or poll.answered:
             return
-        if text != NO_BUFFERS and not text.startswith(poll.request.begins):
+        if not poll.may_be_answered_by(text, number):
             return
         if poll.is_card:
-            self._take_page(poll, text)
+            outcome = self._card.take(text)
+            if outcome == "replies":
+                self._pace.answered(len(text), self._clock() - poll.sent_at)
+            poll.answered = outcome is not None
+            self._count(outcome)
+            self._finish_if_over()
             return
         if poll.query is not None:
             if answer_query(poll, text):
                 poll.answered = True
+                self._count("out_of_buffers" if text == NO_BUFFERS else "replies")
                 self._finish_if_over()
             return
-        asked_at = poll.sent_at
         try:
             taken = self.follower.take(text)
         except MalformedReply as error:
@@ -178,31 +200,45 @@ class Poller:
             return
         poll.answered = True
         self._link.expects_refusal = False
-        if text == NO_BUFFERS:
+        # where the whole was only tried the parts come next
+        if text == NO_BUFFERS and self.follower.short_of_buffers:
             self._pace.failed()
         else:
-            self._pace.answered(len(text), self._clock() - asked_at)
-            self._known.note(poll.request, asked_at)
-            self._replied(taken, asked_at)
+            self._pace.answered(len(text), self._clock() - poll.sent_at, self.follower.is_amid)
+        if text != NO_BUFFERS or taken.changes:
+            self._held_for = None
+            if taken.is_doubted:
+                self.hurry()
+            else:
+                self._known.note(poll.request, poll.sent_at)
+                self._replied(taken, poll.sent_at)
         self._finish_if_over()
 
     def heard(self, what):
         """Note what a line tells: that the board refused to answer, or that something happened."""
         if what == "card":
             self._card_refused()
-        else:
-            self.hurry()
+            return
+        if what in ALARMS:
+            self.follower.told()
+        self.hurry()
 
     def _card_refused(self):
         poll = self._poll
         if poll is None or not poll.is_about_the_card or poll.sent_at is None or poll.answered:
             return
         poll.answered = True
+        self._count("replies")
         if poll.is_card:
             self._card.failed()
         else:
             fail(poll.query, "the printer refused")
         self._finish_if_over()
+
+    def _count(self, outcome):
+        """Count what has become of a poll; the follower counts its own."""
+        if outcome is not None:
+            self.follower.counters[outcome] += 1
 
     ##~~ the poll slot
 
@@ -211,22 +247,14 @@ class Poller:
         request, query = (None, None) if self._was_query else self._queries.next()
         self._was_query = query is not None
         is_card = False
-        if request is None and self._is_cards_turn():
-            request = self._card.next_request()
+        if request is None:
+            request = None if self.follower.is_amid else self._card.request()
             is_card = request is not None
-        self._card_polls = self._card_polls + 1 if is_card else 0
+        else:
+            self._card.is_over()
         request = request or self.follower.next_request()
         self._poll = Poll(request, query, is_card=is_card, queued_at=now)
         self._link.ask(request)
-
-    def _is_cards_turn(self):
-        """Return whether the card may be asked about: never beside a print that is streamed."""
-        return (
-            self.follower.ready
-            and self._card_polls < CARD_POLLS_BETWEEN_LIVE
-            and not self._link.is_streaming_a_print()
-            and not Machine(self.follower.store.model).is_halted
-        )
 
     def _watch(self, now):
         """Give up a poll whose answer, or whose leaving, takes too long."""
@@ -242,6 +270,11 @@ class Poller:
             self._time_out(poll)
 
     def _time_out(self, poll):
+        self._held_for = None
+        # if only the number spoke against it, it is not what it was taken for
+        self._knows_numbers = self._knows_numbers and not poll.answered_others
+        if poll.is_card or poll.query is not None:
+            self._count("timeouts")
         if poll.is_card:
             self._card.failed()
         elif poll.query is None:
@@ -265,21 +298,3 @@ class Poller:
         )
         self._next_at = self._clock() + (0.0 if self._hurries else wait)
         self._hurries = False
-
-    def _take_page(self, poll, text):
-        """Take a page of a folder's list."""
-        try:
-            page = None if text == NO_BUFFERS else decode_page(text)
-        except MalformedReply as error:
-            self._logger.debug("List not understood, asking again: %s", error)
-            page = None
-        if page is None:
-            # the model comes first: a card that can't be read must not slow it down
-            self._card.failed()
-            self._card_polls = CARD_POLLS_BETWEEN_LIVE
-        elif not self._card.take(page):
-            return
-        else:
-            self._pace.answered(len(text), self._clock() - poll.sent_at)
-        poll.answered = True
-        self._finish_if_over()

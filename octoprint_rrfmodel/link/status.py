@@ -1,7 +1,19 @@
 """The plugin's state, as ``GET /plugin/rrfmodel/status`` and every push tell it."""
 
-UNIMPORTANT = frozenset(("age", "at", "revision", "counters"))
+from ..rrf.gcode.doing import OTHER
+from ..rrf.wire.masking import masked
+
+UNIMPORTANT = frozenset(("age", "at", "revision", "counters", "doing"))
 """Members of the state that change all the time and are worth no message of their own."""
+
+
+def worth_telling(status):
+    """Return what of the state is worth a message when it changes."""
+    told = {name: value for name, value in status.items() if name not in UNIMPORTANT}
+    doing = status.get("doing")
+    # the lines of a print are through before anybody has read of them
+    told["doing"] = doing["command"] if doing and doing["what"] != OTHER else None
+    return told
 
 
 class PluginStatus:
@@ -31,7 +43,7 @@ class PluginStatus:
             "firmware": self._firmware() if link.is_rrf else None,
             "ready": follower.ready,
             "stale": poller.is_stale(),
-            "blocked": poller.blocked(),
+            "blocked": poller.why_silent(),
             "age": None if age is None else round(age, 2),
             "at": round(self._known.now(), 3),
             "revision": follower.store.revision,
@@ -42,9 +54,19 @@ class PluginStatus:
                 "rewritten": link.rewritten,
                 **follower.counters,
             },
+            "too_large": list(follower.too_large),
             "warnings": self._warnings(),
+            "link": link.kind,
+            "doing": self._doing(),
             "first_run": self._is_first_run(),
         }
+
+    def _doing(self):
+        doing = self._link.doing()
+        if doing is None:
+            return None
+        since = max(0.0, self._known.now() - doing.since)
+        return {"command": masked(doing.command), "what": doing.what, "since": round(since, 1)}
 
     def _firmware(self):
         """Return what M115 told; the model's version wins, it survives a firmware update."""

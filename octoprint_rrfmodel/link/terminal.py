@@ -13,7 +13,8 @@ SENT = re.compile(r"(?:Send: |>>> )(?:N\d+ )?(?P<command>.*?)(?:\*\d+)?$")
 RECEIVED = re.compile(r"(?:Recv: |<<< ?)(?P<text>.*)$")
 """A line that came from the printer; group ``text`` is the line."""
 
-OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins|dir)":')
+OWN_REPLY = re.compile(r'\{"(?:key|err|status|axisMins|dir|thumbnail|line)":')
+"""How an answer to a poll begins; ``line`` is the number of the command, from 3.6.2 on."""
 
 MOST_POLLS = 1000
 

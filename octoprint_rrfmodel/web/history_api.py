@@ -12,6 +12,9 @@ from ..rrf.views.layers import Layers
 
 TICK_SECONDS = 1.0
 
+WARM_SECONDS = 6.0
+"""Time after which the next temperatures of a line are overdue: OctoPrint asks every five."""
+
 
 class MachineHistory:
     """Keeps samples and layers, and answers requests for them.
@@ -26,6 +29,7 @@ class MachineHistory:
         self._now = now
         self._history = History()
         self._layers = Layers()
+        self._warmed_at = -math.inf
         self._lock = threading.Lock()
 
     ##~~ a listener
@@ -33,6 +37,13 @@ class MachineHistory:
     def replied(self, taken, asked_at):
         """Take what the model says after a reply."""
         self._sample()
+
+    def warmed(self, warmed):
+        """Take temperatures that a line has told; nothing else is known at the moment."""
+        model, now = self._model(), self._now()
+        self._warmed_at = now
+        with self._lock:
+            self._history.sample(model, now, warmed.heaters)
 
     def reset(self):
         """Take that the board began anew."""
@@ -56,7 +67,7 @@ class MachineHistory:
 
     def tick(self):
         """Leave a gap where nothing has come for too long; return the seconds until next time."""
-        if self._is_stale():
+        if self._is_stale() and not 0 <= self._now() - self._warmed_at < WARM_SECONDS:
             self.forgotten()
         return TICK_SECONDS
 

@@ -11,11 +11,12 @@ from octoprint.server.util.tornado import access_validation_factory
 from ..host.answers import RequestRefused
 from ..link.poll_slot import TooManyQueries
 from ..link.questions import refusal_to_send
+from .access import WithoutKeys
 
 WAIT_SECONDS = 10.0
 
 
-class LiveModelHandler(tornado.web.RequestHandler):
+class LiveModelHandler(WithoutKeys, tornado.web.RequestHandler):
     """Asks the printer for a key and returns what it answered; never holds a Flask thread.
 
     ``questions`` are ``Questions``, ``app`` is OctoPrint's Flask application, which knows

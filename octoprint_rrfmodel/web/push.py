@@ -13,7 +13,7 @@ OctoPrint keeps the first messages that nobody on a page may see, and hands them
 logs in there; ``at``, of the state too, is the time by which a page tells old ones.
 """
 
-from ..link.status import UNIMPORTANT
+from ..link.status import worth_telling
 
 SHORTEST_SECONDS = 0.5
 
@@ -40,6 +40,10 @@ class ModelPush:
         """Note top-level keys that changed."""
         self._changed.update(taken.changes)
 
+    def warmed(self, warmed):
+        """Note temperatures that a line has told."""
+        self._changed.update(warmed.changes)
+
     def reset(self):
         """Note that the board began anew."""
         self.forgotten()
@@ -56,7 +60,7 @@ class ModelPush:
         if due > 0:
             return due
         status = self._status()
-        told = {name: value for name, value in status.items() if name not in UNIMPORTANT}
+        told = worth_telling(status)
         if self._forgotten:
             self._forgotten = False
             self._send({"type": "reset", "status": status})

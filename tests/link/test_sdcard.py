@@ -1,5 +1,6 @@
 """The glue about the card, on a connection that only remembers."""
 
+import queue
 from types import SimpleNamespace
 
 import pytest
@@ -27,6 +28,9 @@ class Connection:
         self._serial_encoding = "ascii"
         self._ignore_select = False
         self._currentFile = None
+        self._job_queue = queue.Queue()
+        self._consecutive_not_sd_printing = 0
+        self._consecutive_not_sd_printing_maximum = 2
         self.state = "operational"
         self.is_ready = True
         self.called = []
@@ -35,27 +39,36 @@ class Connection:
         return self.is_ready
 
     def isSdFileSelected(self):
-        return self._currentFile is not None or self.state in ("printing", "paused")
+        return isinstance(self._currentFile, SelectedFile)
 
     def isSdPrinting(self):
-        return self.state == "printing"
+        return self.isPrinting() and self.isSdFileSelected()
 
     def isPrinting(self):
-        return self.state == "printing"
+        return self.state in ("starting", "printing", "cancelling", "finishing")
 
     def isPaused(self):
         return self.state == "paused"
 
     def isBusy(self):
-        return self.state in ("printing", "paused")
+        return self.isPrinting() or self.isPaused()
+
+    def isStarting(self):
+        return self.state == "starting"
+
+    def isCancelling(self):
+        return self.state == "cancelling"
+
+    def isFinishing(self):
+        return self.state == "finishing"
 
     def isOperational(self):
         return True
 
-    def isStarting(self):
+    def isPausing(self):
         return False
 
-    isPausing = isResuming = isCancelling = isFinishing = isStarting
+    isResuming = isPausing
 
     def refreshSdFiles(self, tags):
         self.called.append("refresh")
@@ -65,10 +78,11 @@ class Connection:
 
 
 class SelectedFile:
-    """What OctoPrint would print."""
+    """A file of the card that OctoPrint would print; one that it prints has begun at a time."""
 
-    def __init__(self, name):
+    def __init__(self, name, start=None):
         self.getFilename = lambda: name
+        self.getStartTime = lambda: start
 
 
 class Bench:
@@ -79,6 +93,7 @@ class Bench:
         self.model = {}
         self.sent = []
         self.now = 0.0
+        self.prints = 0
         self.is_current = True
         job = SdJob(lambda: self.model, lambda: self.is_current, self._send, clock=lambda: self.now)
         self.plan = CardPlan()
@@ -117,6 +132,18 @@ class Bench:
         (alias,) = self.plan.index.files
         self.status("processing")
         return alias
+
+    def shows(self, name, state):
+        """Let OctoPrint show another print of a file of the card."""
+        self.prints += 1
+        self.comm._currentFile = SelectedFile(PREFIX + name, float(self.prints))
+        self.comm.state = state
+
+    def begins(self, name):
+        """Let OctoPrint begin one by itself."""
+        self.shows(name, "starting")
+        self.card.translate("M24", "M24", {"trigger:comm.start_print"})
+        self.comm.state = "printing"
 
     def hear(self, *lines):
         return [self.card.reword(line + "\n") for line in lines]
@@ -284,7 +311,8 @@ def test_old_news_decide_nothing(bench):
 )
 def test_octoprint_follows_the_machine(bench, shown, status, said):
     bench.card.fill()
-    bench.comm.state = shown
+    if shown != "operational":
+        bench.shows("square.gco", shown)
     bench.status(status)
     heard = [bench.card.fill()]
     assert heard == (said or [SWALLOWED])
@@ -292,17 +320,79 @@ def test_octoprint_follows_the_machine(bench, shown, status, said):
 
 def test_paused_print_that_was_ended_at_the_machine_is_ended_once_and_sends_nothing(bench):
     bench.card.fill()
-    bench.comm.state = "paused"
+    bench.shows("square.gco", "paused")
     bench.status("idle")
     bench.status("idle")
     assert [bench.card.fill(), bench.card.fill()] == ["// action:cancel", SWALLOWED]
     # M0 without a job would run stop.g
     assert bench.card.translate("M25", "M25", CANCEL).lines == ()
     assert bench.card.translate("M26 S0", "M26", CANCEL).lines == ()
+    # and would end one that begins before OctoPrint is through
+    bench.status("processing")
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ()
     # the next one is ended as ever
-    bench.comm.state = "operational"
-    bench.status("idle")
+    bench.shows("square.gco", "printing")
     assert bench.card.translate("M25", "M25", CANCEL).lines == ("M25", "M400 M0")
+
+
+DONE = "Done printing file"
+FINISHED = "Finished printing file 0:/gcodes/a b.gcode, print time was 0h 2m"
+CANCELLED = "Cancelled printing file 0:/gcodes/a b.gcode, print time was 0h 0m"
+
+
+@pytest.mark.parametrize(
+    ("state", "how", "told"),
+    [
+        ("printing", FINISHED, [DONE]),
+        ("printing", CANCELLED, ["// action:cancel"]),
+        # OctoPrint has told everybody that it is cancelled
+        ("cancelling", FINISHED, []),
+        ("cancelling", CANCELLED, []),
+        # resumed at the machine, and at its end before OctoPrint has heard of it
+        ("paused", FINISHED, ["// action:resumed", DONE]),
+        ("paused", CANCELLED, ["// action:cancel"]),
+        ("operational", FINISHED, []),
+    ],
+)
+def test_a_print_has_one_end_and_the_right_one(bench, state, how, told):
+    bench.card.fill()
+    bench.begins("square.gco")
+    bench.comm.state = state
+    heard = [*bench.hear(DONE, how), bench.card.fill(), bench.card.fill()]
+    # to a host that shows no print as going on it is none
+    takes = [line for line in heard if line in ("// action:cancel", "// action:resumed", DONE)]
+    assert takes == told
+    # and the next one none of it
+    bench.begins("square.gco")
+    bench.now += 60
+    bench.status("idle")
+    assert bench.card.fill() == SWALLOWED
+
+
+def test_end_that_nobody_says_more_of_is_an_end(bench):
+    bench.card.fill()
+    bench.begins("square.gco")
+    assert bench.hear(DONE) != [DONE]
+    bench.status("processing")
+    assert bench.card.fill() == SWALLOWED
+    bench.now += 3
+    bench.status("processing")
+    assert bench.card.fill() == DONE
+
+
+def test_print_of_another_file_is_not_taken_for_octoprints(bench):
+    bench.job_of_the_machine()
+    bench.begins("square.gco")
+    assert [bench.card.fill(), bench.card.fill()][1] == "File selected"
+    bench.status("processing")
+    # the model may have the name of the file before
+    bench.now += 3
+    bench.status("processing")
+    assert bench.card.fill() == SWALLOWED
+    bench.now += 3
+    bench.status("processing")
+    assert bench.card.fill() == "// action:cancel"
+    assert bench.card.translate("M25", "M25", CANCEL).lines == ()
 
 
 def test_job_of_the_machine_is_selected_once(bench):

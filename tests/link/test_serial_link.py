@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip("octoprint")
 
 from octoprint_rrfmodel.link.link import Doing, Link
+from octoprint_rrfmodel.link.serial.patience import STILL_BUSY, Patience
 from octoprint_rrfmodel.link.serial.received import ReceivedLines
 from octoprint_rrfmodel.link.serial.sent import SentCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
@@ -23,10 +24,25 @@ class Rig:
         self.now = 100.0
         self.notes = []
         # an acknowledgement that OctoPrint is to wait for is taken from it
-        self.comm = SimpleNamespace(_clear_to_send=threading.Event())
+        self.comm = SimpleNamespace(
+            _clear_to_send=threading.Event(),
+            _long_running_command=False,
+            _heating=False,
+            _dwelling_until=False,
+            _manualStreaming=False,
+            isStreaming=lambda: False,
+        )
+        self.minutes = 60.0
+        self.is_held = False
         self.link = SerialLink(dict, dict, lambda: self.now)
         card = SimpleNamespace(is_talking=False, reword=lambda line: line)
-        self.received = ReceivedLines(self.link, card, self.note, guards=lambda error: False)
+        self.received = ReceivedLines(
+            self.link,
+            card,
+            self.note,
+            guards=lambda error: False,
+            patience=Patience(self.link, lambda: self.minutes, lambda: self.is_held),
+        )
         self.sent = SentCommands(
             self.link,
             self.note,
@@ -78,6 +94,84 @@ def test_says_it_in_the_words_of_the_contract(rig, cmd, gcode, what):
     assert rig.link.doing().what == what
 
 
+@pytest.mark.parametrize(
+    "cmd, gcode",
+    [
+        *(("G28", "G28"), ("G29", "G29"), ("G32", "G32"), ("T1", "T"), ("T-1", None)),
+        *(('M98 P"a.g"', "M98"), ("G6511", "G6511"), ("M120 G28 M121", "M120")),
+    ],
+)
+def test_silence_of_a_long_command_is_no_silence_to_octoprint(rig, cmd, gcode):
+    rig.send(cmd, gcode)
+    # OctoPrint's own settings need not know it
+    assert rig.comm._long_running_command
+    for _ in range(100):
+        rig.now += 30
+        assert rig.hear("") == STILL_BUSY
+    assert rig.link.silent_for() == 3000
+    rig.hear("ok")
+    rig.now += 30
+    assert rig.hear("") == ""
+    assert rig.link.silent_for() == 0
+
+
+@pytest.mark.parametrize("cmd, gcode", [("G1 X10", "G1"), ("M105", "M105"), ("M117 G28", "M117")])
+def test_silence_of_a_quick_command_is_silence(rig, cmd, gcode):
+    rig.send(cmd, gcode)
+    assert not rig.comm._long_running_command
+    assert rig.hear("") == ""
+
+
+def test_a_board_that_stays_silent_is_found_dead(rig):
+    rig.minutes = 10.0
+    rig.send("G29", "G29")
+    rig.now += 600
+    assert rig.hear("") == STILL_BUSY
+    # a sign of life begins the time anew
+    rig.hear("T0:20.0 /0.0 B:20.0 /0.0")
+    rig.now += 600
+    assert rig.hear("") == STILL_BUSY
+    rig.now += 1
+    assert rig.hear("") == ""
+    # a person may take any time
+    rig.is_held = True
+    assert rig.hear("") == STILL_BUSY
+    rig.is_held, rig.minutes = False, 0.0
+    assert rig.hear("") == STILL_BUSY
+
+
+def test_a_command_that_was_dropped_on_its_way_out_holds_nothing_up(rig):
+    rig.send("T1", "T")
+    rig.comm._clear_to_send.set()
+    rig.now += 30
+    assert rig.hear("") == ""
+    assert (rig.link.awaited, rig.comm._long_running_command) == (None, False)
+
+
+def test_blocked_says_heating_only_where_the_line_waits_for_heat(rig):
+    rig.send("M190 S60", "M190")
+    assert rig.link.blocked() == "heating"
+    rig.hear("ok")
+    rig.comm._long_running_command = False  # as OctoPrint does at each ok
+    # a report while a move waits for room, which OctoPrint takes for a heat-up
+    rig.send("G1 X10", "G1")
+    rig.comm._heating = True
+    assert rig.link.blocked() is None
+    rig.hear("ok")
+    rig.send("G28", "G28")
+    assert rig.link.blocked() == "long_command"
+    rig.send("M120 M116 M121", "M120")
+    assert rig.link.blocked() == "heating"
+
+
+def test_temperatures_of_the_line_go_to_the_worker_and_to_octoprint(rig):
+    rig.notes.clear()
+    report = "T0:20.0 /0.0 B:20.0 /0.0"
+    for line in (report, f"ok {report}", "ok", "B:20.0 /0.0", "Begin file list"):
+        assert rig.hear(line) == line
+    assert rig.notes == [("report", report), ("report", f"ok {report}"), ("report", "B:20.0 /0.0")]
+
+
 def test_does_nothing_once_the_connection_is_gone(rig):
     rig.send("G29", "G29")
     rig.link.forget()
@@ -109,3 +203,27 @@ def test_nobody_else_asks_octoprint_for_its_connection():
         if "link.connection." in path.read_text("utf-8")
     }
     assert {path for path in asking if not path.startswith("link/serial/")} == set()
+
+
+@pytest.mark.parametrize(
+    "cmd, gcode, waits",
+    [
+        ("X20 Y5", None, True),
+        ("g1 x5", None, True),
+        ("N10 G1 X5", None, True),
+        ("echo 1", None, True),
+        ("T-1", None, True),
+        ("@pause", None, False),
+        ("Q0", None, False),
+        # OctoPrint counts that by itself
+        ("G1 X5", "G1", False),
+    ],
+)
+@pytest.mark.parametrize("setting", [False, True])
+def test_waits_for_what_octoprint_takes_for_no_command(rig, cmd, gcode, waits, setting):
+    cleared = []
+    rig.comm._clear_to_send = SimpleNamespace(clear=lambda: cleared.append(cmd))
+    rig.comm._unknownCommandsNeedAck = setting
+    rig.send(cmd, gcode)
+    assert bool(cleared) == (waits and not setting)
+    assert (rig.link.awaited is not None) == (waits or gcode is not None)

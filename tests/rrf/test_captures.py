@@ -179,7 +179,7 @@ def test_session_is_what_a_plain_merge_gives(captures):
 def test_m408_reply_is_read_and_nothing_of_it_lost(captures, name):
     line = line_of(captures, name)
     found = find_reply(line + "ok\n")
-    assert found == (line, "ok")
+    assert found == (line, "ok", None)
     fields = json.loads(line)
     assert decode(found.reply) == StatusReply(fields)
     model = M408Model().take(decode(found.reply).fields)
@@ -263,7 +263,7 @@ def test_forms_of_one_board_make_one_model(captures):
 @fed_as(FOLDER)
 def test_recorded_list_is_read(captures, name):
     line = line_of(captures, name)
-    assert find_reply(line + "\n") == (line, "")
+    assert find_reply(line + "\n") == (line, "", None)
     page = decode_page(line)
     assert (page.folder, page.first, page.next, page.error) == ("0:/macros", 0, 0, 0)
     assert page.entries[0] == ("01-Test_IR_PD_Homing", False, 641, "2019-03-12T11:49:22")
@@ -282,7 +282,7 @@ def test_answer_to_another_command_is_left_alone(captures, name):
 def test_spoilt_reply_is_counted_and_harmless(captures, name, behind):
     line = line_of(captures, name)
     found = find_reply(line + behind + "\n")
-    assert found == (line, behind)
+    assert found == (line, behind, None)
     with pytest.raises(MalformedReply):
         decode(found.reply)
     follower = Follower()

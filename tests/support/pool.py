@@ -17,7 +17,7 @@ from .basedir import complete_profile, is_version_2
 from .server import OctoPrintServer
 
 PROFILE = "/api/printerprofiles/_default"
-CHANGED_PROFILES = "data/rrfmodel/changed_profiles.json"
+CHANGED_PROFILES = "rrfmodel_changed_profiles.json"
 
 SET_BY_REQUEST = {"serial", "plugins_config", "profile"}
 """Options that a running server can be given; any other makes a server of the module's own."""

@@ -77,7 +77,9 @@ class Host:
         self.commands_to = MachineCommands(
             self,
             lambda: self.machine,
-            SimpleNamespace(is_waiting=False, is_answered=lambda: False),
+            SimpleNamespace(
+                is_waiting=False, holds_the_line=lambda: False, is_answered=lambda: False
+            ),
             recovery=SimpleNamespace(refusal=lambda: "Not now."),
             look=self.looked.append,
             rate=Rate(lambda: 0.0),

@@ -111,3 +111,14 @@ def test_the_oldest_go(line):
         line.log(f"<line {number}")
     assert len(line.kept()) == MOST_LINES
     assert line.kept()[0] == ("response", "line 3")
+
+
+def test_passwords_are_kept_nowhere(line):
+    line.store.sent('M587 S"shed" P"swordfish"', {"source:api"})
+    line.log("<Own SSID: shed password: swordfish", "<Error: Bad command: M551 Pswordfish")
+    assert line.kept() == [
+        ("command", "M587 ***"),
+        ("response", "Own SSID: shed password: ***"),
+        ("response", "Error: Bad command: M551 ***"),
+    ]
+    assert line.responded == ["Own SSID: shed password: ***", "Error: Bad command: M551 ***"]

@@ -135,6 +135,20 @@ def test_new_subscription_replaces_the_old(bench):
     assert len(bench.subscribers) == 1
 
 
+def test_nothing_is_kept_of_what_nobody_wants_any_more(bench):
+    connection, other = Connection(), Connection()
+    for number in range(100):
+        bench.subscribers.subscribe(connection, {"heater_bed": (f"field{number}",)})
+        bench.subscribers.subscribe(other, {"heater_bed": ("target",)})
+        bench.heat(number + 1)
+    # the one of each connection
+    assert len(bench.subscribers._latest) == 2
+    bench.subscribers.unsubscribe(connection)
+    assert list(bench.subscribers._latest) == [(("heater_bed", ("target",)),)]
+    bench.subscribers.unsubscribe(other)
+    assert not bench.subscribers._latest and not bench.subscribers._counts
+
+
 def test_empty_subscription_and_end_of_connection(bench):
     connection, _ = bench.subscribe(BED)
     assert bench.subscribers.subscribe(connection, {})[0] == {}

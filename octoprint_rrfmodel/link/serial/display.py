@@ -54,9 +54,12 @@ class Display:
         # OctoPrint takes a tool for a sensor if its number is higher than any in the report, and
         # takes them all for sensors if neither the current one nor T0 is there
         is_readable = current in known.tools or 0 in known.tools
+        # what the line has just told is newer than any model; a T alone may be any tool's
+        tells_all = all(f"T{number}" in parsed for number in known.tools)
         for number, value in known.tools.items():
-            actual, target = value if is_fresh else parsed.get(f"T{number}", (None, None))
-            if is_fresh and not knows_targets:
+            told = parsed.get(f"T{number}") if tells_all or not is_fresh else None
+            actual, target = told or (value if is_fresh else (None, None))
+            if is_fresh and not told and not knows_targets:
                 target = KEEP
             if is_readable and number <= highest:
                 merged[f"T{number}"] = (actual, target)
@@ -65,7 +68,7 @@ class Display:
         if is_fresh:
             slots = {"B": known.bed, "C": known.chamber}
             for name, value in slots.items():
-                if value:
+                if value and name not in parsed:
                     merged[name] = value if knows_targets else (value[0], KEEP)
             merged.update(known.others)
         return merged

@@ -1,7 +1,10 @@
-"""The ``ok`` too many that a line of several commands brings when a move on it fails.
+"""The ``ok`` too many: the one that a line of several commands brings when a move on it fails.
 
 The last command on the line has been read already when the move before it fails, and it is
 acknowledged too, in the very next line (3.5 GCodeBuffer.cpp:442, GCodes4.cpp:48-80).
+
+And the one that was late: it comes after the question whose ``ok`` OctoPrint gets in its place
+(``lost_ok``), and in front of the answer.
 """
 
 COUNTS_ALL = ("_unknownCommandsNeedAck", "_unknown_commands_need_ack")
@@ -17,16 +20,30 @@ class ExtraOk:
 
     def __init__(self):
         self.awaits = None
-        """``error``, ``ok`` or ``extra``: what decides next; ``None`` where nothing may come."""
+        """``error``, ``ok``, ``extra`` or ``answer``: what decides next; ``None`` where nothing may
+        come."""
+        self._answer = ()
+
+    def asks(self, answer):
+        """Note that a question goes out past OctoPrint, and how the answer's line begins."""
+        self._answer = answer
+        self.awaits = "answer"
+
+    def given_up(self):
+        """Note that OctoPrint goes on without the ``ok`` that it has waited for."""
+        if self.awaits == "answer":
+            self.awaits = None
 
     def sending(self, cmd, gcode):
         """Note that a command goes out; only a move with M121 behind it may bring one."""
-        if self.awaits != "extra":
+        if self.awaits not in ("extra", "answer"):
             self.awaits = "error" if gcode == "M120" and " G1 " in cmd else None
 
     def is_in(self, line):
         """Return whether a line is the ``ok`` too many; call it with each one while it awaits."""
         awaits = self.awaits
+        if awaits == "answer":
+            return self._is_late(line)
         if awaits == "extra":
             self.awaits = None
             return line.strip() == "ok"
@@ -36,11 +53,20 @@ class ExtraOk:
             self.awaits = "ok"
         return False
 
+    def _is_late(self, line):
+        """Return whether a line is an ``ok`` from before the question was read."""
+        if line.startswith(self._answer):
+            # the ok that it begins with, or the next one, is the question's own
+            self.awaits = None
+            return False
+        return line.startswith("ok")
+
 
 def count_ok(comm):
     """Let OctoPrint wait for the ok of a line that is about to go out and no command to it.
 
-    The board acknowledges ``T-1`` too; OctoPrint would take that ok for another line's.
+    The board acknowledges ``X20 Y5`` and ``T-1`` too. OctoPrint would take that ok for another
+    line's, and send all such lines of a file at once.
     """
     if not any(getattr(comm, name, False) for name in COUNTS_ALL):
         comm._clear_to_send.clear()

@@ -5,20 +5,26 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
+from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
+from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
+from .fitting import begin_a_line
+from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
 
-WATCHED = UNSENDABLE | {EMERGENCY_STOP}
-"""Commands that are looked at wherever they come from."""
+WATCHED = UNSENDABLE | STOPS
+"""Commands that are looked at wherever they come from, a file included."""
 
 
 class QueuedCommands:
     """Gives each command the form in which it is to go out.
 
-    ``notify("halted")`` must only take note and return. ``instead(cmd, gcode, tags)`` gives what
-    to queue for a command that had better not be sent. Each of ``translators`` is called
-    ``(cmd, gcode, tags)`` and gives what to queue for a command that isn't a file's; ``None`` of
-    any of them leaves it to the next, and in the end as it is.
+    ``notify("halted", doing)`` must only take note and return; ``doing`` is what the line waits
+    for. ``instead(cmd, gcode, tags)`` gives what to queue for a command that had better not be
+    sent. Each of ``translators`` is called ``(cmd, gcode, tags)`` and gives what to queue for a
+    command that isn't a file's; ``None`` of any of them leaves it to the next, and in the end as
+    it is. Of what OctoPrint runs for a print they are asked about each line, also about those that
+    it takes for no command.
     """
 
     def __init__(self, link, notify, instead, *, translators):
@@ -40,11 +46,24 @@ class QueuedCommands:
         """
         if comm is not self._link.connection:
             return None
+        if tags and not OF_PRINTS.isdisjoint(tags):
+            translated = self._translate(cmd, gcode, tags)
+            if translated is not None:
+                return self._queue(translated, cmd_type, gcode)
         if gcode is None:
-            if not cmd.startswith("T"):
+            if cmd.startswith(HOSTS_OWN):
                 return None
-        elif gcode in WATCHED:
-            instead = self._watched(cmd, gcode, tags or ())
+            gcode = name_of(cmd)
+            if not gcode:
+                # means nothing to the board, and OctoPrint might wait for its ok
+                return (None,)
+            if gcode not in WATCHED:
+                return self._as_it_is(cmd, cmd_type, gcode)
+        if gcode == EMERGENCY_STOP:
+            self._stopping(comm)
+            return None
+        if gcode in WATCHED or "*" in cmd:
+            instead = self._instead(cmd, gcode, tags or ())
             if instead is not None:
                 return self._queue(instead, cmd_type, gcode)
         elif tags and FILE_TAG not in tags:
@@ -53,16 +72,18 @@ class QueuedCommands:
             translated = self._translate(cmd, gcode, tags)
             if translated is not None:
                 return self._queue(translated, cmd_type, gcode)
-        if gcode is not None and gcode not in BLOCKING:
+        return self._as_it_is(cmd, cmd_type, gcode)
+
+    def _as_it_is(self, cmd, cmd_type, gcode):
+        """Return a command with what has to go out in front of it."""
+        if gcode not in BLOCKING:
             return None
         return [(STATUS_REQUEST, None, {STATUS_TAG}), (cmd, cmd_type)]
 
-    def _watched(self, cmd, gcode, tags):
-        """Return what to queue instead; OctoPrint hangs up on an emergency stop."""
-        if gcode == EMERGENCY_STOP:
-            self._notify("halted")
-            return None
-        return self._instead(cmd, gcode, tags)
+    def _stopping(self, comm):
+        """Have an emergency stop read at once; OctoPrint sends it by itself, and hangs up."""
+        self._notify("halted", self._link.doing())
+        begin_a_line(comm)
 
     def _translate(self, cmd, gcode, tags):
         for translate in self._translators:

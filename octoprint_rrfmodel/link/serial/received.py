@@ -10,26 +10,32 @@ from ...rrf.gcode.blocking import SETTLING
 from ...rrf.wire.errors import is_halted, is_serious
 from ...rrf.wire.heard import TELLING, heard
 from ...rrf.wire.line import VOLTAGE_WARNING, find_reply, without_warning
+from ...rrf.wire.report import is_report
 
-ATTENDED = TELLING | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
+REPORTS = frozenset("TBC")
+"""First letters of a temperature report that comes by itself."""
+
+ATTENDED = TELLING | REPORTS | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
 """First letters of lines that are looked at; most lines begin otherwise and cost little."""
 
 
 class ReceivedLines:
     """Takes the board's JSON out of what OctoPrint hears, and finds out whose board it is.
 
-    ``notify(name, *arguments)`` is called with ``reply`` (text), ``refused`` (line),
-    ``identified``, ``halted`` and ``heard`` (what); it must only take note and return.
+    ``notify(name, *arguments)`` is called with ``reply`` (text, number), ``refused`` and
+    ``report`` (line), ``identified``, ``halted`` and ``heard`` (what); it must only take note and
+    return.
     ``card.reword(line)`` gives a line in words that OctoPrint knows, ``card.fill()`` one in the
     place of a line that was the plugin's alone. ``guards(error)`` says whether a serious error
-    only pauses the print.
+    only pauses the print. ``patience.feed(comm)`` gives what OctoPrint is to hear of silence.
     """
 
-    def __init__(self, link, card, notify, *, guards):
+    def __init__(self, link, card, notify, *, guards, patience):
         self._link = link
         self._card = card
         self._notify = notify
         self._guards = guards
+        self._patience = patience
 
     ##~~ octoprint.comm.protocol.firmware.info
 
@@ -55,8 +61,12 @@ class ReceivedLines:
         link = self._link
         if comm is not link.connection:
             return line
+        if line:
+            link.heard_now()
         if '{"' not in line:
             if line[:1] == "o" and link.extra_ok.awaits is None:
+                if line[3:4] in REPORTS:
+                    self._notify("report", line)
                 if link.awaited is not None and line.startswith("ok"):
                     link.acknowledged(link.awaited in SETTLING)
                 return line
@@ -66,28 +76,32 @@ class ReceivedLines:
                 or link.expects_refusal
                 or self._card.is_talking
             ):
-                return self._text(line)
+                return self._text(comm, line)
             return line
         found = find_reply(line)
         if found is None or (found.is_of_a_file and not link.asks_of_a_file):
             return line
-        self._notify("reply", found.reply)
+        self._notify("reply", found.reply, found.number)
         if not found.rest:
             return self._card.fill()
         if found.rest.startswith("ok"):
             link.acknowledged(link.awaited in SETTLING)
         return found.rest
 
-    def _text(self, line):
+    def _text(self, comm, line):
         """Return a line that holds no JSON and is no plain ok, as OctoPrint is to read it."""
         link = self._link
         if line[:1] in TELLING:
             told = heard(line)
             if told:
                 self._notify("heard", told)
+            if not line:
+                return self._patience.feed(comm)
             if line.startswith(VOLTAGE_WARNING):
                 # OctoPrint sees an ok only where a line starts with it, and waits half a minute
                 line = without_warning(line)
+        if is_report(line):
+            self._notify("report", line)
         if link.extra_ok.awaits is not None and link.extra_ok.is_in(line):
             return SWALLOWED
         if line.startswith("ok"):

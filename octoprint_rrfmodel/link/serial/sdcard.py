@@ -13,6 +13,7 @@ from ...rrf.card.listing import PRINTABLE, ROOT, CardFile, path_of
 from ...rrf.card.wording import BEGINNINGS, LIST_BEGINS, LIST_ENDS, reword
 from ...rrf.gcode.operations import Lines
 from ...rrf.wire.gcode_words import quoted
+from .origin import START_TAG
 from .sdjob import PREFIX, is_listed
 
 if IS_2:
@@ -94,15 +95,25 @@ class SdCard:
 
     def translate(self, cmd, gcode, tags):
         """Return what to queue in place of ``cmd``, ``None`` to queue it as it is."""
+        if START_TAG in tags:
+            self._job.begins(self._link.connection)
         if gcode in NAMING:
             return self._with_path(cmd, gcode, tags)
         if CANCEL_TAG in tags:
-            return self._job.cancel(gcode)
+            return self._job.cancel(gcode, self._link.connection)
         if gcode == "M20" and OWN_REFRESH_TAG in tags:
             if REFRESH_TAG not in tags and not self._plan.notices_changes:
                 self._plan.refetch()
             return None
         return None
+
+    def is_foreign(self, comm):
+        """Return whether the print that OctoPrint shows isn't its own, or was ended elsewhere."""
+        return self._job.is_foreign(comm)
+
+    def is_others(self, comm):
+        """Return whether the board has a job that OctoPrint has nothing to do with."""
+        return self._job.is_others(comm, self._index)
 
     def end_job(self):
         """Return the lines that end the board's job, and see to it that they do."""
@@ -144,6 +155,7 @@ class SdCard:
             self._listed = None
             if worded.startswith("File opened"):
                 self._job.allow_opening(comm)
+            says.extend(self._job.reworded(comm, worded))
             return worded
         return line if self._listed is None else self._collect(comm, line)
 
@@ -222,6 +234,7 @@ class SdCard:
         index = self._plan.index
         if index is not None and (self._shown is None or index.files != self._shown.files):
             self._refresh(comm, index)
+        self._job.look(comm)
         if not self._says:
             self._says.extend(self._job.news(comm, self._index))
             self._review()

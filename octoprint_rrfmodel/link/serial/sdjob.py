@@ -5,9 +5,10 @@ receiving thread, ``news`` on the worker.
 """
 
 from ...host.version import IS_2
-from ...rrf.card.wording import Situation
+from ...rrf.card.wording import CANCEL, DONE, RESUMED, WITHHELD, Situation
 from ...rrf.gcode.operations import Lines
 from ...rrf.views.job import WITHOUT_JOB, CardJob, card_job
+from .origin import PrintOrigin
 
 PREFIX = "" if IS_2 else "/"
 """In front of names in OctoPrint's list of the card's files."""
@@ -18,6 +19,13 @@ ready to wait."""
 
 CANCEL_SECONDS = 60.0
 """Time after which a print that didn't pause is no longer waited for."""
+
+END_SECONDS = 2.0
+"""Time in which the firmware says how a print has ended, and that it has; it is one breath."""
+
+ASTRAY_SECONDS = 5.0
+"""How long the board has to print another file than OctoPrint shows: a job is there before the
+model has its name."""
 
 
 class SdJob:
@@ -32,23 +40,41 @@ class SdJob:
         self._is_current = is_current
         self._send = send
         self._clock = clock
+        self._origin = PrintOrigin(model, is_current)
         self.forget()
 
     def forget(self):
         """Know of no job: another connection."""
+        self._origin.forget()
         self._adopted = None
         self._cancelled_at = None
         self._asks_again = False
-        self._has_told_end = False
+        self._withheld_at = None
+        self._astray_at = None
         self._settled = CardJob()
+        self._status = None
+        """The last current ``state.status``."""
 
-    def cancel(self, gcode):
+    def begins(self, comm):
+        """Note that OctoPrint itself tells the board to begin."""
+        self._origin.begins(comm)
+
+    def is_foreign(self, comm):
+        """Return whether the print that OctoPrint shows isn't its own, or was ended elsewhere."""
+        return self._origin.is_foreign(comm)
+
+    def is_others(self, comm, index):
+        """Return whether the board has a job that OctoPrint has nothing to do with."""
+        return self._origin.is_others(comm, lambda path: _is_selected(comm, index, path))
+
+    def cancel(self, gcode, comm=None):
         """Return what goes out in the place of a command by which OctoPrint cancels.
 
         On Marlin these stop reading the file. RepRapFirmware wants a job to be paused, then M0,
-        which runs cancel.g.
+        which runs cancel.g. Without ``comm`` it isn't OctoPrint's idea, and is done.
         """
-        if gcode == "M26" or (gcode == "M25" and self._has_told_end):
+        is_ended = comm is not None and self._origin.is_ended(comm)
+        if gcode == "M26" or (gcode == "M25" and is_ended):
             # M26 would set where the next print begins; and what has ended needs no end
             return Lines()
         if gcode != "M25":
@@ -92,15 +118,47 @@ class SdJob:
         hides = (
             self._cancelled_at is not None or comm.isPaused() or (is_unknown and not comm.isBusy())
         )
-        names_file = bool(comm._sdFileToSelect)
-        return Situation(opened, names_file, comm.isSdPrinting(), hides, job)
+        return Situation(
+            opened,
+            names_file=bool(comm._sdFileToSelect),
+            shows_print=comm.isSdPrinting(),
+            shows_pause=comm.isPaused() and comm.isSdFileSelected(),
+            hides_print=hides,
+            cancels=comm.isCancelling(),
+            job=job,
+        )
+
+    def reworded(self, comm, worded):
+        """Note what OctoPrint is told of a print's end; return lines that it hears behind that."""
+        if worded == WITHHELD:
+            self._withheld_at = self._clock()
+            return ()
+        if worded not in (CANCEL, DONE, RESUMED):
+            return ()
+        self._withheld_at = None
+        if worded == CANCEL:
+            self._origin.ended_there(comm)
+        return (DONE,) if worded == RESUMED else ()
+
+    def look(self, comm):
+        """Take in what the model says of the job, if that is newer than all that was sent."""
+        if not self._is_current():
+            self._settled = CardJob()
+            self._status = None
+            return
+        self._settled = card_job(self._model())
+        self._status = (self._model().get("state") or {}).get("status")
+        self._origin.looks(comm, self._settled, self._status)
 
     def news(self, comm, index):
         """Follow the board; return lines that tell OctoPrint of what it can't know."""
-        if not self._is_current():
-            self._settled = CardJob()
+        job = self._settled
+        if self._withheld_at is not None and self._clock() - self._withheld_at > END_SECONDS:
+            # nobody has said how it ended
+            self._withheld_at = None
+            return (DONE,) if comm.isSdPrinting() and not _is_between(comm) else ()
+        if self._status is None:
             return ()
-        job = self._settled = card_job(self._model())
         if self._cancelled_at is not None:
             self._finish_cancelling(job)
         elif job.is_active:
@@ -116,15 +174,15 @@ class SdJob:
         One that goes on OctoPrint ends by itself, when it hears often enough that nothing is
         printed; while it is paused it doesn't count that.
         """
-        if not comm.isBusy():
-            self._has_told_end = False
-        status = (self._model().get("state") or {}).get("status")
-        if not comm.isPaused() or not comm.isSdFileSelected() or status not in WITHOUT_JOB:
+        is_over = self._status in WITHOUT_JOB
+        return self._end(comm) if is_over and comm.isPaused() and comm.isSdFileSelected() else ()
+
+    def _end(self, comm):
+        """Return what ends OctoPrint's print, and lets nothing of that reach the board."""
+        if self._origin.is_ended(comm):
             return ()
-        if self._has_told_end:
-            return ()
-        self._has_told_end = True
-        return ("// action:cancel",)
+        self._origin.ended_there(comm)
+        return (CANCEL,)
 
     def _finish_cancelling(self, job):
         if not job.is_active or self._clock() - self._cancelled_at > CANCEL_SECONDS:
@@ -134,21 +192,26 @@ class SdJob:
             self._send([END_JOB], set())
 
     def _follow(self, comm, index, job):
-        self._has_told_end = False
+        if self._is_astray(comm, index, job):
+            return self._end(comm)
         if comm.isSdFileSelected() and comm.isPaused():
-            return ("// action:resumed",) if job.status == "processing" else ()
+            return (RESUMED,) if job.status == "processing" else ()
         if comm.isSdPrinting():
-            is_between = (
-                comm.isStarting()
-                or comm.isPausing()
-                or comm.isResuming()
-                or comm.isCancelling()
-                or comm.isFinishing()
-            )
-            return ("// action:paused",) if job.is_paused and not is_between else ()
+            is_steady = not _is_between(comm)
+            return ("// action:paused",) if job.is_paused and is_steady else ()
         if comm.isBusy() or not comm.isOperational() or comm._sdFileToSelect:
             return ()
         return self._adopt(comm, index, job.path)
+
+    def _is_astray(self, comm, index, job):
+        """Return whether OctoPrint shows a print while the board has a job of another file."""
+        shows = comm.isSdFileSelected() and comm.isBusy() and not _is_between(comm)
+        if not (shows and index and job.path) or _is_selected(comm, index, job.path):
+            self._astray_at = None
+            return False
+        if self._astray_at is None:
+            self._astray_at = self._clock()
+        return self._clock() - self._astray_at > ASTRAY_SECONDS
 
     def _adopt(self, comm, index, path):
         """Return what selects the file of a job that was started at the machine.
@@ -173,6 +236,17 @@ def is_listed(comm, alias):
     isn't there (connector.py:724).
     """
     return PREFIX + alias in comm._sdFiles and comm.isSdReady()
+
+
+def _is_between(comm):
+    """Return whether OctoPrint's print is on its way from one state to another."""
+    return (
+        comm.isStarting()
+        or comm.isPausing()
+        or comm.isResuming()
+        or comm.isCancelling()
+        or comm.isFinishing()
+    )
 
 
 def _is_selected(comm, index, path):

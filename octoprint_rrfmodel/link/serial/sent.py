@@ -2,6 +2,7 @@
 
 from ...host.tags import FILE_TAG, POLL_TAG
 from ...rrf.gcode.blocking import TARGETING
+from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
 from .extra_ok import count_ok
 from .serial_link import STATUS_REQUEST
 
@@ -9,10 +10,10 @@ from .serial_link import STATUS_REQUEST
 class SentCommands:
     """Notes what the board is about to be busy with.
 
-    ``notify(name, *arguments)`` is called with ``poll_sent`` (when) and ``poll_acknowledged``; it
-    must only take note and return. ``show_target(heater, target)`` shows the target that a
-    translated command sets. ``sent(cmd, tags)`` is told of commands that are neither a file's nor
-    the plugin's polls.
+    ``notify(name, *arguments)`` is called with ``poll_sent`` (when, with which line
+    number) and ``poll_acknowledged``; it must only take note and return.
+    ``show_target(heater, target)`` shows the target that a translated command sets.
+    ``sent(cmd, tags)`` is told of commands that are neither a file's nor the plugin's polls.
     """
 
     def __init__(self, link, notify, clock, *, show_target, sent):
@@ -31,12 +32,18 @@ class SentCommands:
         link = self._link
         if comm is not link.connection:
             return None
-        if gcode is None and cmd.startswith("T"):
-            gcode = "T"  # T-1 is none to OctoPrint, and blocks as the others do
+        if gcode is None:
+            gcode = "" if cmd.startswith(HOSTS_OWN) else name_of(cmd)
+            if not gcode:
+                # OctoPrint's own, or nothing: no board answers it
+                if tags and FILE_TAG not in tags:
+                    self._sent(cmd, tags)
+                return None
             count_ok(comm)
-        link.awaited = gcode
-        link.awaited_command = cmd
-        now = link.awaited_since = self._clock()
+        if link.awaited is not None:
+            link.extra_ok.given_up()
+        link.awaits(cmd, gcode)
+        now = link.awaited_since
         link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
         link.extra_ok.sending(cmd, gcode)
         if gcode in TARGETING or cmd in link.targets:
@@ -53,5 +60,6 @@ class SentCommands:
                 self._notify("poll_acknowledged")
             else:
                 link.polled.add(cmd)
-                self._notify("poll_sent", now)
+                # the number that it gets if it gets one, in both versions of OctoPrint
+                self._notify("poll_sent", now, getattr(comm, "_current_line", None))
         return None

@@ -6,12 +6,17 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 import threading
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import BLOCKING
-from ...rrf.gcode.doing import what_of
+from ...rrf.gcode.blocking import may_change
+from ...rrf.gcode.doing import HEATING, what_of
+from ...rrf.gcode.duration import takes_long
 from ...rrf.wire.gcode_words import words
+from ...rrf.wire.masking import masked
 from ..link import Doing, Link
 from ..terminal import RecentPolls
 from .extra_ok import ExtraOk
+from .fitting import fit
+from .lost_ok import LostOk
+from .pending import is_change_waiting
 from .restart import Connection, restart
 
 STATUS_REQUEST = "M105"
@@ -48,6 +53,7 @@ class SerialLink(Link):
         self._clock = clock
         self._card = None
         self._last = None
+        self._lost_ok = LostOk(self, clock)
         self.polled = RecentPolls()
         self.was_identified = threading.Event()
         """Set when a board tells what it is; a restart waits for that."""
@@ -63,6 +69,10 @@ class SerialLink(Link):
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
         self.awaited_since = 0.0
+        self.awaits_long = False
+        """Whether the awaited command may take long without a word."""
+        self.heard_at = 0.0
+        """When the board last said something, or a command last went out to it."""
         self.asks_of_a_file = False
         self.targets = {}
         """Line that is to go out to the heater and the target that it sets."""
@@ -72,11 +82,27 @@ class SerialLink(Link):
     def is_known_now(self, comm):
         """Begin with a connection that has told that it is RepRapFirmware."""
         self.forget()
+        fit(comm)
         self.connection = comm
+
+    def awaits(self, cmd, gcode):
+        """Note the command that is about to go out."""
+        self.awaited = gcode
+        self.awaited_command = cmd
+        self.awaited_since = self.heard_at = self._clock()
+        self.awaits_long = gcode is not None and takes_long(cmd, gcode)
+        if self.awaits_long:
+            # whatever OctoPrint's settings know of it: it asks for nothing meanwhile, and doesn't
+            # take a missing ok for a lost one (comm._handle_ok ends that)
+            self.connection._long_running_command = True
+
+    def heard_now(self):
+        """Note that the board has said something."""
+        self.heard_at = self._clock()
 
     def acknowledged(self, settles):
         """Note that the awaited command is through; ``settles`` if it may have changed much."""
-        if settles:
+        if settles or may_change(self.awaited or "", self.awaited_command):
             self.settled_at = self._clock()
         self.awaited = None
 
@@ -89,6 +115,10 @@ class SerialLink(Link):
         if comm is not None:
             profile = self._profiles().get_current_or_default()["id"]
             self._last = Connection(*comm.getConnection(), profile)
+
+    def tick(self):
+        """Look after an acknowledgement that doesn't come; return the seconds until then."""
+        return self._lost_ok.tick()
 
     ##~~ Link
 
@@ -120,17 +150,14 @@ class SerialLink(Link):
             if comm is not None and line.startswith(code):
                 is_first = words(line).get("P") == machine.slot(kind)
                 return line if is_first and self.profile()[part] else f"M120 {line} M121"
-        if comm is not None and line.startswith("T") and not comm._validate_tool(int(line[1:])):
-            # the model has the tool, whatever number of extruders the printer profile has
-            comm._sanity_check_tools = False
         return line
 
     @property
     def can_restart(self):
         return self._last is not None
 
-    def restart(self):
-        restart(self, self._printer, self._last)
+    def restart(self, is_running):
+        restart(self, self._printer, self._last, is_running)
 
     def blocked(self):
         comm = self.connection
@@ -139,19 +166,33 @@ class SerialLink(Link):
         if comm.isStreaming() or comm._manualStreaming:
             return "streaming"
         if self.awaited is None:
-            # an unsolicited temperature lets OctoPrint think of heating; no ok would end that
             return None
-        if comm._heating:
+        # a temperature lets OctoPrint think of heating, also where a move waits for room
+        if what_of(self.awaited_command) == HEATING:
             return "heating"
-        if comm._long_running_command or comm._dwelling_until or self.awaited in BLOCKING:
+        if comm._long_running_command or self.awaits_long:
             return "long_command"
         return None
+
+    def silent_for(self):
+        if self.connection is None or self.awaited is None or not self.awaits_long:
+            return 0.0
+        return self._clock() - self.heard_at
 
     def doing(self):
         if self.connection is None or self.awaited is None:
             return None
         command = self.awaited_command
-        return Doing(command, what_of(command), self.awaited_since)
+        return Doing(masked(command), what_of(command), self.awaited_since)
+
+    def is_changing(self):
+        comm = self.connection
+        if comm is None:
+            return False
+        # told by who sends, on another thread
+        awaited = self.awaited
+        is_under_way = awaited is not None and may_change(awaited, self.awaited_command)
+        return is_under_way or is_change_waiting(comm)
 
     def has_polled(self, command):
         return command in self.polled

@@ -20,9 +20,13 @@ class Situation(NamedTuple):
     """Whether the host itself has asked for a file, and knows its name."""
     shows_print: bool = False
     """Whether the host shows a print from the card as going on."""
+    shows_pause: bool = False
+    """Whether it shows one as paused."""
     hides_print: bool = False
     """Whether the host must not hear of a print: it has ended it and the board still has to, or
     it would take it for one of another file."""
+    cancels: bool = False
+    """Whether the host itself is about to cancel it, and has told everybody so."""
     job: CardJob = CardJob()
 
 
@@ -51,6 +55,18 @@ UNLISTED = "// a file that is not in the list was opened"
 """In place of a reply about such a file: a comment to the host, without the reply's own words."""
 
 
+DONE = "Done printing file"
+CANCEL = "// action:cancel"
+RESUMED = "// action:resumed"
+"""What ends a print for the host, or goes on with it: in words that hosts of all kinds know."""
+
+WITHHELD = "// how the print has ended comes next"
+"""In place of what says that it has ended, and not how."""
+
+KNOWN = "// the print has ended, as it was to"
+"""The same of one that the host has ended by itself."""
+
+
 def _opened(found: re.Match[str], situation: Situation) -> str | None:
     if situation.opened is None:
         return None if situation.names_file else UNLISTED
@@ -71,6 +87,25 @@ def _printing(found: re.Match[str], situation: Situation) -> str | None:
 
 def _position(found: re.Match[str], situation: Situation) -> str | None:
     return f"{found['axes']} E:{found['extruder']}"
+
+
+def _done(found: re.Match[str], situation: Situation) -> str | None:
+    if situation.cancels:
+        return KNOWN
+    return WITHHELD if situation.shows_print else None
+
+
+def _finished(found: re.Match[str], situation: Situation) -> str | None:
+    if situation.cancels:
+        return None
+    if situation.shows_pause:
+        return RESUMED
+    return DONE if situation.shows_print else None
+
+
+def _cancelled(found: re.Match[str], situation: Situation) -> str | None:
+    shows = situation.shows_print or situation.shows_pause
+    return CANCEL if shows and not situation.cancels else None
 
 
 ROWS = (
@@ -120,6 +155,28 @@ ROWS = (
         _printing,
         "A position that grows is a print of the selected file to the host: also the one that it"
         " has just cancelled, and one of another file that was started at the machine.",
+    ),
+    Row(
+        "done",
+        "Do",
+        re.compile(r"Done printing file\b"),
+        _done,
+        "Comes first however a print has ended (3.5 GCodes.cpp:4431); to the host it is the end of"
+        " one that went well, also behind a cancel.",
+    ),
+    Row(
+        "finished",
+        "Fi",
+        re.compile(r"Finished printing file\b"),
+        _finished,
+        "Says that it went well. A host that shows a pause takes no end: it goes on first.",
+    ),
+    Row(
+        "cancelled",
+        "Ca",
+        re.compile(r"Cancelled printing file\b"),
+        _cancelled,
+        "Says that it was ended at the machine or by the firmware, unless the host did that.",
     ),
     Row(
         "position",

@@ -26,11 +26,19 @@ class Fetch:
     the members one by one.
     """
 
-    def __init__(self, key: str, flags: str = KEY_FLAGS) -> None:
+    def __init__(
+        self,
+        key: str,
+        flags: str = KEY_FLAGS,
+        *,
+        in_parts: bool = False,
+        without: frozenset[str] = frozenset(),
+    ) -> None:
         self.key = key
         self._flags = flags
         self._paths = [key]
-        self._outline = False
+        self._outline = in_parts
+        self._without = set(without)
         self._items: list[Any] = []
         self._parts: dict[str, Any] = {}
 
@@ -44,6 +52,23 @@ class Fetch:
         if self._items or path == AXES:
             flags += f"a{len(self._items)}"
         return ModelRequest(path, flags)
+
+    @property
+    def path(self) -> str:
+        """What is asked for now: the key, or a part of it."""
+        return self._paths[0]
+
+    @property
+    def left_out(self) -> frozenset[str]:
+        """The parts that were not asked for, or not to be had."""
+        return frozenset(self._without)
+
+    def skip(self) -> bool:
+        """Go on without the part that is asked for now; return whether that was the last."""
+        self._without.add(self._paths.pop(0))
+        self._outline = False
+        self._items = []
+        return not self._paths
 
     def take(self, reply: ModelReply) -> bool:
         """Take the answer to ``request``; return whether the value is complete."""
@@ -59,7 +84,8 @@ class Fetch:
         members = []
         if self._outline:
             self._outline = False
-            members = _members_to_ask(path, value)
+            asked = _members_to_ask(path, value)
+            members = [member for member in asked if member not in self._without]
         elif path == "move" and isinstance(value, dict) and "f" not in self._flags:
             axes = value.get("axes")
             if isinstance(axes, list) and len(axes) == AXES_SHOWN:
@@ -77,12 +103,29 @@ class Fetch:
 
     @property
     def value(self) -> Any:
-        """The value, put together from its parts."""
+        """The value, put together from its parts; members that were left out aren't there."""
         whole = self._parts[self.key]
         for path, part in self._parts.items():
             steps = [name or int(index) for name, index in _STEP.findall(path[len(self.key) :])]
             whole = _with_part(whole, steps, part)
+        for path in self._without:
+            whole = _without_part(whole, path[len(self.key) :])
         return whole
+
+
+def _without_part(whole: Any, path: str) -> Any:
+    """Return ``whole`` without the member at a path; an element of a list stays as it was told."""
+    *steps, last = [name or int(index) for name, index in _STEP.findall(path)]
+    place = whole
+    for step in steps:
+        is_there = step in place if isinstance(place, dict) else isinstance(place, list)
+        if not is_there:
+            return whole
+        place = place[step]
+    if not isinstance(place, dict) or last not in place:
+        return whole
+    left = {name: value for name, value in place.items() if name != last}
+    return _with_part(whole, steps, left)
 
 
 def _members_to_ask(path: str, outline: Any) -> list[str]:

@@ -7,15 +7,19 @@ Belongs to one thread; ``store.model`` may be read by any.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ..model.merge import NestedTooDeep
 from ..model.store import ModelStore
 from ..wire.live_reader import LiveReader
 from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
+from ..wire.report import entries
 from ..wire.request import LIVE_FLAGS, ModelRequest, Request
+from .doubts import Doubts
 from .poll import ModelPlan, Update
 from .poll408 import StatusPlan
+from .reported import members_of, patch_of
 
 LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
 
@@ -30,6 +34,17 @@ class Taken(NamedTuple):
     """What changed, by top-level key; see ``merge.Changes``."""
     reset: bool
     """Whether it showed that the board had been reset; the model then begins anew."""
+    is_doubted: bool = False
+    """Whether it tells of something bad for the first time: it doesn't count, ask again at once."""
+
+
+class Warmed(NamedTuple):
+    """What a report of temperatures did; all else of the model is as old as before."""
+
+    changes: dict[str, Any]
+    """As in ``Taken``."""
+    heaters: frozenset[int]
+    """Indices of those that it told of."""
 
 
 class Follower:
@@ -48,6 +63,7 @@ class Follower:
     def _start(self) -> None:
         self._plan: ModelPlan | StatusPlan = ModelPlan()
         self._reader = LiveReader()
+        self._doubts = Doubts()
         self._unanswered = 0
         self._unconfirmed: dict[Request, tuple[str, ...]] = {}
 
@@ -57,9 +73,24 @@ class Follower:
         return self._plan.ready
 
     @property
+    def too_large(self) -> tuple[str, ...]:
+        """What the board has no room to tell; it is asked for rarely."""
+        return self._plan.too_large.paths
+
+    @property
     def behind(self) -> bool:
         """Whether there is more to ask than live values."""
         return self._plan.behind
+
+    @property
+    def is_amid(self) -> bool:
+        """Whether what is asked next belongs to what has just come, and is to follow at once."""
+        return self._plan.is_amid
+
+    @property
+    def live_keys(self) -> tuple[str, ...]:
+        """The keys by which live values come one by one, none where they come as a whole."""
+        return self._plan.live_keys
 
     @property
     def short_of_buffers(self) -> int:
@@ -80,9 +111,10 @@ class Follower:
             reply = self._decode(text, request)
             if isinstance(reply, NoBuffers):
                 self.counters["out_of_buffers"] += 1
-                self._plan.no_buffers()
+                updates = self._plan.no_buffers()
+                model, changes = self.store.merged(updates)
                 self._begin_if_exhausted()
-                return Taken({}, False)
+                return self._taken(updates, model, changes)
             if not answers(reply, request):
                 if isinstance(reply, ModelReply) and isinstance(self._plan, StatusPlan):
                     # it was only late, or somebody else asked: the board has M409 after all
@@ -92,21 +124,50 @@ class Follower:
             self.protocol = "M409" if isinstance(reply, ModelReply) else "M408"
             self._unanswered = 0
             self.is_mute = False
-            changes: dict[str, Any] = {}
-            for update in self._plan.take(reply):  # type: ignore[arg-type]
-                changes.update(self._apply(update))
+            updates = self._plan.take(reply)  # type: ignore[arg-type]
+            model, changes = self.store.merged(updates)
         except (MalformedReply, NestedTooDeep) as error:
             self.counters["malformed"] += 1
             self._reader.forget()
             self._failed()
             raise MalformedReply(str(error)) from None
-        self._confirm(request, foreign_strings(text))
-        if self._plan.observe(self.store.model):
+        taken = self._taken(updates, model, changes)
+        if not taken.is_doubted and not taken.reset:
+            self._confirm(request, foreign_strings(text))
+        return taken
+
+    def _taken(self, updates: list[Update], model: Mapping[str, Any], changes: Any) -> Taken:
+        """Take a model that a reply has led to, unless it is doubtful."""
+        is_doubted = self._doubts.is_doubtful(self.store.model, model) if updates else False
+        if is_doubted or any(update.path for update in updates):
+            # the last live reply isn't what the model has
+            self._reader.forget()
+        if is_doubted:
+            self._plan.again(updates)
+            return Taken({}, False, True)
+        self.store.keep(model)
+        if self._doubts.is_reset(model):
             self.resets += 1
+            self._plan.restart()
             self.store.forget()
             self._reader.forget()
             return Taken(changes, True)
+        self._plan.observe(model)
         return Taken(changes, False)
+
+    def told(self) -> None:
+        """Note that the firmware has said by itself that something is wrong: believe it at once."""
+        self._doubts.told()
+
+    def warm(self, line: str) -> Warmed | None:
+        """Put a report of temperatures into the model; ``None`` where it tells nothing."""
+        model = self.store.model
+        members = members_of(entries(line), model)
+        if not members:
+            return None
+        # the next live reply is compared with what stands in the model now
+        self._reader.forget()
+        return Warmed(self.store.patch(patch_of(members, model)), frozenset(members))
 
     def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
         """Ask for a key again until its letters beyond ASCII come twice the same.
@@ -170,13 +231,6 @@ class Follower:
         if isinstance(reply, ModelReply) and answers(reply, request):
             self._reader.remember(text)
         return reply
-
-    def _apply(self, update: Update) -> dict[str, Any]:
-        if update.path:
-            # the key's live members may now be other than the last live reply said
-            self._reader.forget()
-            return self.store.replace(update.path, update.value)
-        return self.store.patch(update.value)
 
 
 def answers(reply: ModelReply | StatusReply | NoBuffers, request: Request) -> bool:

@@ -32,6 +32,7 @@ class Pace:
 
     def __init__(self) -> None:
         self._cost = 0.0
+        self._goes_on = False
         self._failures = 0
         self._baudrate = 0
 
@@ -39,19 +40,23 @@ class Pace:
         """Begin anew; ``baudrate`` is 0 where none is known. On USB it means nothing."""
         self._baudrate = baudrate
         self._cost = 0.0
+        self._goes_on = False
         self._failures = 0
 
-    def answered(self, length: int, seconds: float) -> None:
+    def answered(self, length: int, seconds: float, goes_on: bool = False) -> None:
         """Note a reply of ``length`` bytes that came ``seconds`` after its request was sent.
 
+        ``goes_on``: the next one is a part of the same, and what they cost is counted together.
         What the line was taken for is at most both: a USB line is faster than its nominal rate,
         and a board may think longer than it talks.
         """
         self._failures = 0
-        self._cost = seconds
+        cost = seconds
         if self._baudrate:
             line_time = (length + OVERHEAD_BYTES) * BITS_A_BYTE / self._baudrate
-            self._cost = min(seconds, line_time)
+            cost = min(seconds, line_time)
+        self._cost = self._cost + cost if self._goes_on else cost
+        self._goes_on = goes_on
 
     def failed(self) -> None:
         """Note a poll that brought nothing: back off, the more the oftener."""
@@ -66,6 +71,8 @@ class Pace:
         spaced = self._cost * (1 - share) / share
         if self._failures:
             return min(LONGEST_SECONDS, max(spaced, IDLE_SECONDS * 2.0**self._failures))
+        if self._goes_on:
+            return BEGINNING_SECONDS
         if printing:
             return max(PRINTING_SECONDS, spaced)
         if begins:

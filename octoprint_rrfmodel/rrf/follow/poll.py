@@ -8,29 +8,17 @@ from typing import Any, NamedTuple
 from ..wire.reply import ModelReply
 from ..wire.request import LIVE_FLAGS, OUTLINE_FLAGS, ModelRequest, Request
 from .fetch import Fetch
-
-SEQS = "seqs"
-
-LIVE_KEYS = (
-    "state",
-    "heat",
-    SEQS,
-    "tools",
-    "move",
-    "job",
-    "fans",
-    "sensors",
-    "inputs",
-    "spindles",
-    "boards",
-)
-"""Top-level keys with live members, the most wanted first."""
+from .live import LIVE_KEYS, SEQS, LiveRound
+from .too_large import TooLarge
 
 FIRST = ("state", "boards", "heat", "tools", "move", "job", "fans", "sensors", "inputs")
 """Fetched before the others, so that a page has something to show early."""
 
 FETCHES_BETWEEN_LIVE = 4
 """Keys fetched in a row before a live reply is due again."""
+
+WHOLE_EVERY = 4
+"""A key that was asked for in parts is tried as a whole again each so many times."""
 
 PATIENCE = 3
 """Failures of one key in a row before the next one gets its turn."""
@@ -52,9 +40,10 @@ class ModelPlan:
     """
 
     def __init__(self) -> None:
-        self._begin()
+        self.restart()
 
-    def _begin(self) -> None:
+    def restart(self) -> None:
+        """Begin anew, as with a board that was reset."""
         self._request: ModelRequest | None = None
         self._counters: Mapping[str, Any] | None = None
         self._asked: dict[str, Any] = {}
@@ -62,12 +51,14 @@ class ModelPlan:
         self._fetched: set[str] = set()
         self._wanted: list[str] = []
         self._fetch: Fetch | None = None
-        self._live: list[Fetch] = []
-        self._live_in_parts = False
+        self._asks_live = False
+        self._live = LiveRound()
+        self.too_large = TooLarge()
+        self._split: dict[str, int] = {}
+        self._refused = 0
         self._since_live = 0
         self._failures = 0
         self._short = 0
-        self._up_time: float | None = None
 
     @property
     def ready(self) -> bool:
@@ -78,6 +69,16 @@ class ModelPlan:
     def behind(self) -> bool:
         """Whether something waits to be fetched, apart from live values."""
         return self._keys is None or bool(self._wanted)
+
+    @property
+    def is_amid(self) -> bool:
+        """Whether what is asked next belongs to what has just come, and is to follow at once."""
+        return self._live.is_amid
+
+    @property
+    def live_keys(self) -> tuple[str, ...]:
+        """The keys by which live values come one by one, none where they come as a whole."""
+        return self._live.keys
 
     @property
     def short_of_buffers(self) -> int:
@@ -95,19 +96,14 @@ class ModelPlan:
             return ModelRequest(SEQS, LIVE_FLAGS)
         if self._keys is None:
             return ModelRequest("", OUTLINE_FLAGS)
-        if self._fetch is None and self._wanted and self._since_live < FETCHES_BETWEEN_LIVE:
-            key = self._wanted[0]
-            self._fetch = Fetch(key)
-            self._asked[key] = self._counter(key)
-        if self._fetch is not None:
+        self._asks_live = self._since_live >= FETCHES_BETWEEN_LIVE or not self._wanted
+        if not self._asks_live:
+            if self._fetch is None:
+                key = self._wanted[0]
+                self._fetch = self._new_fetch(key)
+                self._asked[key] = self._counter(key)
             return self._fetch.request
-        if not self._live_in_parts:
-            return ModelRequest("", LIVE_FLAGS)
-        if not self._live:
-            self._live = [
-                Fetch(key, LIVE_FLAGS) for key in LIVE_KEYS if key in self._fetched or key == SEQS
-            ]
-        return self._live[0].request
+        return self._live.request(self._fetched)
 
     def take(self, reply: ModelReply) -> list[Update]:
         """Take the answer to ``next_request``; return what it adds to the model."""
@@ -118,16 +114,13 @@ class ModelPlan:
             return [Update("", {SEQS: self._counters})]
         if self._keys is None:
             return self._take_outline(reply.result)
-        if self._fetch is not None:
+        if self._fetch is not None and not self._asks_live:
             return self._take_key(self._fetch, reply)
         self._since_live = 0
-        if not self._live_in_parts:
-            return [Update("", reply.result)] if isinstance(reply.result, dict) else []
-        fetch = self._live[0]
-        if not fetch.take(reply):
-            return []
-        self._live.pop(0)
-        return [] if fetch.value is None else [Update("", {fetch.key: fetch.value})]
+        for key in self.too_large.tick():
+            self._want(key)
+        members = self._live.take(reply)
+        return [] if members is None else [Update("", members)]
 
     def failed(self) -> None:
         """Note that ``next_request`` brought nothing that could be used; it will be asked again.
@@ -140,53 +133,89 @@ class ModelPlan:
         if self._failures < PATIENCE:
             return
         self._failures = 0
-        if self._fetch is not None:
+        if self._fetch is not None and not self._asks_live:
             self._wanted.append(self._wanted.pop(0))
             self._fetch = None
             self._since_live = FETCHES_BETWEEN_LIVE
         else:
-            self._live = self._live[1:]
+            self._live.failed()
             self._since_live = 0
 
-    def no_buffers(self) -> None:
-        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests."""
+    def no_buffers(self) -> list[Update]:
+        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests.
+
+        Returns what a key's last member that can't be had leaves of it.
+        """
         self._request = None
+        fetch = None if self._asks_live else self._fetch
+        if self._asks_live and self._live.is_trial:
+            self._live.no_room()
+            return []
+        if fetch is not None and fetch.path in self.too_large:
+            return self._go_without(fetch)
+        if fetch is not None and fetch.key in self._split and fetch.split():
+            return []
         self._short += 1
         if self._short < 2:
-            return
-        if self._fetch is not None:
-            if not self._fetch.split():
-                self.failed()
-        elif self._live_in_parts:
+            return []
+        if fetch is not None:
+            if fetch.split():
+                self._split[fetch.key] = 0
+                return []
+            return self._has_no_room(fetch)
+        # where there is no room for anything no key is to blame
+        self._refused = 0
+        if self._keys is not None and not self._live.no_room():
             self.failed()
-        elif self._keys is not None:
-            self._live_in_parts = True
+        return []
 
-    def observe(self, model: Mapping[str, Any]) -> bool:
-        """Look at counters and up-time after a change; return whether the board was reset.
+    def _has_no_room(self, fetch: Fetch) -> list[Update]:
+        """Note that a part of a key that can't be split has no room; live values tell who has."""
+        self._refused += 1
+        self._since_live = FETCHES_BETWEEN_LIVE
+        self._short = 0 if self._refused > 1 else self._short
+        return self._go_without(fetch) if self._refused >= PATIENCE else []
 
-        After a reset the plan begins anew (Duet3D/Connectors, PollConnector: an up-time below
-        the last one seen).
-        """
-        state = model.get("state")
-        up_time = state.get("upTime") if isinstance(state, dict) else None
-        if isinstance(up_time, (int, float)):
-            if self._up_time is not None and up_time < self._up_time:
-                self._begin()
-                return True
-            self._up_time = up_time
+    def _go_without(self, fetch: Fetch) -> list[Update]:
+        self._refused = self._short = 0
+        self.too_large.note(fetch.path)
+        if fetch.path != fetch.key:
+            return self._finished(fetch) if fetch.skip() else []
+        self._fetch = None
+        self._wanted.remove(fetch.key)
+        self._fetched.add(fetch.key)
+        return []
+
+    def _new_fetch(self, key: str) -> Fetch:
+        """Return what asks for a key: in parts at once where that was needed last."""
+        in_parts = key in self._split and self._split[key] % WHOLE_EVERY < WHOLE_EVERY - 1
+        if key in self._split:
+            self._split[key] += 1
+        return Fetch(key, in_parts=in_parts, without=self.too_large.resting_of(key))
+
+    def again(self, updates: list[Update]) -> None:
+        """Note that what was just taken doesn't count: live values tell it again, and first."""
+        for path, value in updates:
+            if path:
+                self._want(path)
+            else:
+                self._live.again(value)
+        self._since_live = FETCHES_BETWEEN_LIVE
+
+    def observe(self, model: Mapping[str, Any]) -> None:
+        """Look at the counters after a change, and want each key that has another."""
         counters = model.get(SEQS)
         if isinstance(counters, dict) and counters is not self._counters:
             self._counters = counters
             for key in self._keys or ():
                 if key in self._asked and self._asked[key] != self._counter(key):
                     self._want(key)
-        return False
 
     def refetch(self, key: str = "") -> None:
         """Want a key again, or every one."""
         for name in self._keys or ():
             if key in ("", name):
+                self.too_large.wake(name)
                 self._want(name)
 
     def _take_outline(self, outline: Any) -> list[Update]:
@@ -200,8 +229,11 @@ class ModelPlan:
         return []
 
     def _take_key(self, fetch: Fetch, reply: ModelReply) -> list[Update]:
-        if not fetch.take(reply):
-            return []
+        self._refused = 0
+        return self._finished(fetch) if fetch.take(reply) else []
+
+    def _finished(self, fetch: Fetch) -> list[Update]:
+        self.too_large.came(fetch.key, fetch.left_out)
         self._fetch = None
         self._wanted.pop(0)
         self._fetched.add(fetch.key)
@@ -211,7 +243,7 @@ class ModelPlan:
         return [Update(fetch.key, fetch.value)]
 
     def _want(self, key: str) -> None:
-        if key not in self._wanted:
+        if key not in self._wanted and not self.too_large.rests(key):
             self._wanted.append(key)
 
     def _counter(self, key: str) -> Any:

@@ -9,6 +9,7 @@ from ..wire.m408 import M408Model
 from ..wire.reply import StatusReply
 from ..wire.request import Request, StatusRequest
 from .poll import Update
+from .too_large import TooLarge
 
 FORMS = (2, 3, 5, 4, 1, 0)
 """The forms, the most telling first; 3.6 has the last two alone, 3.7 none."""
@@ -26,18 +27,20 @@ class StatusPlan:
     """The order of ``M408`` requests: each form once, then the best of those that answer."""
 
     def __init__(self) -> None:
-        self._begin()
+        self.restart()
 
-    def _begin(self) -> None:
+    def restart(self) -> None:
+        """Begin anew, as with a board that was reset."""
         self._model = M408Model()
+        self.too_large = TooLarge()
         self._form: int | None = None
+        self._taken: int | None = None
         self._untried = list(FORMS)
         self._again: list[int] = []
         self._answered: set[int] = set()
         self._asked = 0
         self._failures = 0
         self._printing = False
-        self._up_time: float | None = None
 
     @property
     def ready(self) -> bool:
@@ -53,6 +56,16 @@ class StatusPlan:
     def exhausted(self) -> bool:
         """Whether each form was tried and none answers."""
         return not self._untried and not self._answered
+
+    @property
+    def is_amid(self) -> bool:
+        """False: no form is a part of another."""
+        return False
+
+    @property
+    def live_keys(self) -> tuple[str, ...]:
+        """None: a form tells live values as a whole."""
+        return ()
 
     @property
     def short_of_buffers(self) -> int:
@@ -79,6 +92,7 @@ class StatusPlan:
     def take(self, reply: StatusReply) -> list[Update]:
         """Take the answer to ``next_request``; return the model's keys as they now are."""
         form, self._form = self._form, None
+        self._taken = form
         self._failures = 0
         self._asked += 1
         waiting = self._untried or self._again
@@ -96,21 +110,20 @@ class StatusPlan:
             waiting.pop(0)
             self._failures = 0
 
-    def no_buffers(self) -> None:
+    def no_buffers(self) -> list[Update]:
         """As ``failed``."""
         self.failed()
+        return []
 
-    def observe(self, model: Mapping[str, Any]) -> bool:
-        """Look at status and up-time after a change; return whether the board was reset."""
+    def again(self, updates: list[Update]) -> None:
+        """Note that what was just taken doesn't count, and ask the same again."""
+        self._model.undo()
+        self._form = self._taken
+
+    def observe(self, model: Mapping[str, Any]) -> None:
+        """Look at the status after a change: a job has a form of its own."""
         state = model.get("state") or {}
         self._printing = state.get("status") in PRINTING
-        up_time = state.get("upTime")
-        if isinstance(up_time, int):
-            if self._up_time is not None and up_time < self._up_time:
-                self._begin()
-                return True
-            self._up_time = up_time
-        return False
 
     def refetch(self, key: str = "") -> None:
         """Ask each form again that was answered: none of them is one key."""

@@ -6,7 +6,7 @@ between is answered afterwards (RepRapFirmware 3.5 GCodes4.cpp:1885, GCodes.cpp:
 
 from __future__ import annotations
 
-BLOCKING = frozenset(
+_BLOCKING = frozenset(
     (
         "T",  # tfree, tpre and tpost macros
         "G4",
@@ -33,11 +33,53 @@ BLOCKING = frozenset(
     )
 )
 
+
+def _padded(names: frozenset[str]) -> frozenset[str]:
+    """Return names with those that files of other programs write as ``G04`` and ``M00``."""
+    return names | {f"{name[0]}0{name[1]}" for name in names if len(name) == 2}
+
+
+BLOCKING = _padded(_BLOCKING)
+
 TARGETING = frozenset(("G10", "M104", "M109", "M140", "M141", "M190", "M191", "M568"))
 """Commands that may give a heater another target."""
 
 SETTLING = BLOCKING | {"M18", "M84", "G92", "M120", "M564"}
-"""Commands after which what was known of axes, heaters and tools may be wrong."""
+"""The commonest commands after which what was known of axes, heaters and tools may be wrong."""
+
+MOVES = _padded(frozenset(("G0", "G1", "G2", "G3")))
+
+# fmt: off
+_PLAIN = _padded(
+    frozenset(
+        (
+            "G10", "G11", "G17", "G18", "G19", "G20", "G21", "G90", "G91", "G93", "G94",
+            "M3", "M4", "M5", "M20", "M21", "M22", "M23", "M26", "M27", "M30", "M31", "M36",
+            "M37", "M38", "M39", "M42", "M73", "M82", "M83", "M104", "M105", "M106", "M107",
+            "M110", "M111", "M114", "M115", "M117", "M118", "M119", "M122", "M140", "M141",
+            "M144", "M150", "M201", "M203", "M204", "M205", "M207", "M220", "M221", "M260",
+            "M261", "M280", "M290", "M291", "M292", "M300", "M404", "M408", "M409", "M486",
+            "M552", "M566", "M568", "M572", "M573", "M579", "M593", "M595",
+        )
+    )
+)
+# fmt: on
+"""Commands that leave homed axes, tools and what is warm as they are; a new target warms nothing
+yet."""
+
+
+def may_change(gcode: str, command: str = "") -> bool:
+    """Return whether axes, tools and heat may be other than they were, once a command is through.
+
+    Any command that isn't known to be harmless may run a macro of the machine's own, which may do
+    anything (3.5 GCodes2.cpp, the end of HandleMcode). A move with H may home.
+
+    >>> may_change("G28"), may_change("M1234"), may_change("G1", "G1 H1 X-9"), may_change("M106")
+    (True, True, True, False)
+    """
+    if gcode in MOVES:
+        return "H" in command
+    return gcode[:1] in ("G", "M", "T") and gcode not in _PLAIN
 
 
 def blocks(line: str) -> bool:

@@ -15,6 +15,9 @@ from .unsendable import waits_for_answer, without_texts
 OTHER = "other"
 """What every command does that is in no row."""
 
+HEATING = "heating"
+"""What a wait for temperatures is called."""
+
 _EXPRESSION = re.compile(r"\{(?:[^{}]|\{[^{}]*\})*\}")
 """An expression in braces, with braces in it at most once: letters in it begin no command."""
 
@@ -58,13 +61,13 @@ def _saves(command: str) -> bool:
 ROWS = (
     Row("homing", ("G28",), "homeall.g and its kin run to their end (3.5 GCodes.cpp, DoHome)."),
     Row(
-        "heating",
+        HEATING,
         ("M109", "M116", "M190", "M191"),
         "Wait until temperatures are reached, M109 after a tool change where none is selected"
         " (3.5 GCodes2.cpp:1759, :2342).",
     ),
     Row(
-        "heating",
+        HEATING,
         ("M303",),
         "Tunes a heater; its ok comes at once, the heat for minutes (3.5 Heat.cpp, TuneHeater).",
     ),

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from ..views.machine import HAS_EXPRESSIONS, M568_SETS_TOOLS, Machine
+from ..views.machine import HAS_EXPRESSIONS, M568_SETS_TOOLS, Machine, array
 from ..wire.gcode_words import axis_word, number, numbers
 
 OFF = "-273.15"
@@ -50,6 +50,11 @@ def extrusion_factor_line(extruder: int, percent: float) -> str:
     Without D it would be the current tool's, and an error where none is selected.
     """
     return f"M221 D{extruder} S{number(percent)}"
+
+
+def current_extrusion_factor_line(percent: float) -> str:
+    """Return the line that sets the factor of whatever tool will be the current one by then."""
+    return f"M221 S{number(percent)}"
 
 
 def tool_temperatures_line(
@@ -94,8 +99,9 @@ def _off_except_those_of(current: Mapping[str, Any] | None, tool: Mapping[str, A
     G10 would switch that off too (2.05 Tool.cpp, SetToolHeaterStandbyTemperature); M568 doesn't.
     """
     is_other = current is not None and current.get("number") != tool.get("number")
-    others = (current.get("heaters") or ()) if current is not None and is_other else ()
-    return ":".join("0" if index in others else OFF for index in tool.get("heaters") or (None,))
+    others = array(current.get("heaters")) if current is not None and is_other else []
+    own = array(tool.get("heaters")) or [None]
+    return ":".join("0" if index in others else OFF for index in own)
 
 
 def slot_temperatures_line(

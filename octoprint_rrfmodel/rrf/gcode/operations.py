@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple, Union
 
-from ..views.machine import M568_SETS_TOOLS, Machine
+from ..views.machine import M568_SETS_TOOLS, Machine, array, numbers_of
 from ..wire.gcode_words import extrude_line, jog_line, number
 from . import forms
 
@@ -55,7 +55,7 @@ def home(machine: Machine, axes: Iterable[str] = ()) -> Outcome:
 def extrude(machine: Machine, amount: float, speed: float | None = None) -> Outcome:
     """Return one line that extrudes mm of filament; refused without a tool or with a cold one."""
     tool = machine.current_tool
-    if tool is None and machine.knows_tools:
+    if tool is None and machine.knows_tools and machine.is_current:
         return Refused("no_tool_selected")
     if tool is not None and machine.is_cold(tool):
         return Refused("too_cold", str(tool["number"]))
@@ -72,8 +72,11 @@ def select(machine: Machine, tool: int) -> Outcome:
 def heat_tool(machine: Machine, tool: int | None, target: float) -> Outcome:
     """Return the lines that heat a tool, with 0 switch it off; refused where it isn't there.
 
-    ``None`` is the one that M104 without T means.
+    ``None`` is the one that M104 without T means: only the firmware knows which that will be while
+    another is being selected.
     """
+    if tool is None and not machine.is_current:
+        return Lines((f"M104 S{number(target)}",))
     meant = machine.default_tool if tool is None else machine.tools.get(tool)
     if meant is None:
         if not machine.knows_tools:
@@ -87,7 +90,7 @@ def heat_tool(machine: Machine, tool: int | None, target: float) -> Outcome:
 def _heat_with_m568(machine: Machine, tool: Mapping[str, Any], target: float) -> tuple[str, ...]:
     name = tool["number"]
     # the model may not tell how many heaters it has
-    active = [target] * (len(tool.get("heaters") or ()) or 1)
+    active = [target] * (len(array(tool.get("heaters"))) or 1)
     state = forms.tool_state_word("active" if target else "off")
     return (f"{forms.tool_temperatures_line(machine, name, active)} {state}",)
 
@@ -95,7 +98,7 @@ def _heat_with_m568(machine: Machine, tool: Mapping[str, Any], target: float) ->
 def _heat_with_m104(machine: Machine, tool: Mapping[str, Any], target: float) -> tuple[str, ...]:
     if not target:
         return (forms.tool_off_line(machine, tool),)
-    name, standby = tool["number"], tool.get("standby")
+    name, standby = tool["number"], numbers_of(tool.get("standby"))
     line = f"M104 T{name} S{number(target)}"
     current = machine.current_tool
     if current is not None and current["number"] == name and standby:
@@ -127,10 +130,13 @@ def speed_factor(machine: Machine, percent: float) -> Outcome:
 def extrusion_factor(machine: Machine, percent: float) -> Outcome:
     """Return a line for each extruder of the current tool; refused without one.
 
-    To hosts that factor is also the flow rate.
+    To hosts that factor is also the flow rate. Which tool it will be only the firmware knows while
+    one is being selected.
     """
     tool = machine.current_tool
+    if not machine.is_current:
+        return Lines((forms.current_extrusion_factor_line(percent),))
     if tool is None:
         return Refused("no_tool_selected")
-    extruders = tool.get("extruders") or ()
-    return Lines(tuple(forms.extrusion_factor_line(extruder, percent) for extruder in extruders))
+    extruders = numbers_of(tool.get("extruders"))
+    return Lines(tuple(forms.extrusion_factor_line(int(each), percent) for each in extruders))

@@ -104,7 +104,8 @@ def startup_error(view: View) -> str:
 
 def _idle_state(view: View, thing: Any) -> str:
     kept = view.kept
-    if kept.activity == "printing":
+    # Klipper's word for any command that runs; the model can't be asked for meanwhile
+    if kept.activity == "printing" or view.host.is_at_work:
         return "Printing"
     if kept.activity == "paused":
         return "Ready"

@@ -38,11 +38,12 @@ ENDED_STATES = {"complete": "complete", "cancelled": "standby", "error": "error"
 """``print_stats.state`` of each way that a job ends."""
 
 ENDINGS = (
-    ("complete", re.compile(r"Finished printing file (?P<path>.+?), print time was")),
-    ("cancelled", re.compile(r"Cancelled printing file (?P<path>.+?), print time was")),
-    ("complete", re.compile(r"File (?P<path>.+?) will print in \d")),
+    ("complete", re.compile(r"Finished printing file (?P<path>.{1,260}?), print time was")),
+    ("cancelled", re.compile(r"Cancelled printing file (?P<path>.{1,260}?), print time was")),
+    ("complete", re.compile(r"File (?P<path>.{1,260}?) will print in \d")),
 )
-"""How a job ended, and the text that says so; the last is of a simulation."""
+"""How a job ended, and the text that says so; the last is of a simulation. A path of
+the firmware's has at most 120 bytes (3.5 Configuration.h, MaxFilenameLength)."""
 
 ENDING_WORD = "print"
 """What all of them have in them; most lines don't."""
@@ -58,7 +59,6 @@ def followed(
     job: Job,
     printer: Printer,
     host_job: HostJob | None,
-    was_reset: bool,
     before: tuple[float | None, ...],
     seconds: float,
 ) -> Job:
@@ -66,8 +66,6 @@ def followed(
 
     ``before`` is where the extruders were at the last reply, ``seconds`` how long ago that was.
     """
-    if was_reset:
-        job = lost(job)
     job = _card(job, printer)
     if job.runs and job.source == CARD:
         return job

@@ -63,12 +63,9 @@ class Kept:
 
 def accumulated(kept: Accumulated, printer: Printer, host: Host, now: float) -> Accumulated:
     """Return what is kept after another reply; the same again changes nothing but the time."""
-    up_time = printer.up_time
-    was_reset = up_time is not None and kept.up_time is not None and up_time < kept.up_time
     activity = ACTIVITIES.get(printer.status, "")
     return Accumulated(
         at=now,
-        up_time=kept.up_time if up_time is None else up_time,
         activity=activity,
         since=kept.since if activity == kept.activity else now,
         extremes=_extremes(kept.extremes, printer),
@@ -77,8 +74,7 @@ def accumulated(kept: Accumulated, printer: Printer, host: Host, now: float) -> 
             kept.job,
             printer,
             host.job,
-            was_reset,
-            () if was_reset else kept.positions,
+            kept.positions,
             0.0 if kept.at is None else now - kept.at,
         ),
     )

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..views.machine import Machine, array, mapping
+from ..views.sensor_kinds import is_thermometer
 from .values import element, first, named, number, text, whole
 
 Model = Mapping[str, Any]
@@ -164,14 +165,14 @@ class Printer:
 
     @cached_property
     def analog(self) -> dict[str, Model]:
-        """Analog sensors that no heater uses, by name."""
+        """Thermometers that no heater uses, by name."""
         heaters = array(self.heat.get("heaters"))
         used = {whole(mapping(heater).get("sensor")) for heater in heaters}
         sensors = array(mapping(self.model.get("sensors")).get("analog"))
         return named(
             (text(mapping(sensor).get("name")), f"sensor{index}", mapping(sensor))
             for index, sensor in enumerate(sensors)
-            if mapping(sensor) and index not in used
+            if mapping(sensor) and index not in used and is_thermometer(mapping(sensor))
         )
 
     @cached_property

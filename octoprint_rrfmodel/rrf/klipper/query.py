@@ -25,6 +25,10 @@ _FAMILIES: dict[str, list[Row]] = {}
 for _row in OBJECTS:
     _FAMILIES.setdefault(_row.family, []).append(_row)
 
+MOST_OBJECTS = 500
+MOST_FIELDS = 3000
+"""What may be asked for at once: several times what a machine has, each thing counted once."""
+
 Wanted = Mapping[str, "Sequence[str] | None"]
 """Objects and the fields wanted of each; ``None`` and an empty one are all of them."""
 
@@ -106,17 +110,24 @@ def wanted_of(objects: Any) -> dict[str, tuple[str, ...] | None]:
     """Return what a request's ``objects`` ask for.
 
     Raises ``ValueError`` with a sentence for anything but names, each with null or a list of
-    texts.
+    texts, and for too many.
     """
     if not isinstance(objects, Mapping):
         raise ValueError("Objects are given by name, each with null or a list of its fields.")
+    if len(objects) > MOST_OBJECTS:
+        raise ValueError(f"No more than {MOST_OBJECTS} objects can be asked for at once.")
     wanted: dict[str, tuple[str, ...] | None] = {}
+    count = 0
     for name, fields in objects.items():
         if not isinstance(name, str):
             raise ValueError(f"The name of an object is a text, and {name!r} is none.")
         if fields is not None and not _are_texts(fields):
             raise ValueError(f"The fields of {name!r} are null or a list of names.")
-        wanted[name] = tuple(fields) if fields else None
+        # what is named twice is computed, compared and kept once
+        wanted[name] = tuple(dict.fromkeys(fields)) if fields else None
+        count += len(wanted[name] or ())
+        if count > MOST_FIELDS:
+            raise ValueError(f"No more than {MOST_FIELDS} fields can be asked for at once.")
     return wanted
 
 

@@ -38,6 +38,8 @@ class Host(NamedTuple):
     has_protocol: bool
     """Whether ``M409`` or ``M408`` gives a model, or may yet."""
     job: HostJob | None
+    is_at_work: bool = False
+    """Whether the line waits for a command that the machine is busy with."""
     macros: Sequence[str] = ()
     """Names of the macro files, with or without the folder ``0:/macros/``."""
 
@@ -88,7 +90,6 @@ class Accumulated(NamedTuple):
 
     at: float | None = None
     """Time of the last reply, on the clock of ``World.eventtime``."""
-    up_time: float | None = None
     activity: str = ""
     """``printing``, ``paused``, ``idle``; empty for anything else."""
     since: float = 0.0

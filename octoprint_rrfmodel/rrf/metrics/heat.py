@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..views.machine import array, mapping
+from ..views.sensor_kinds import is_thermometer, other_reading, unit_of
 from ..views.state_words import HEATERS
 from ..views.temperatures import TARGET_OF_STATE
 from .metric import (
@@ -60,9 +61,22 @@ def _is_fault(state: Any) -> Any:
 def _working_sensors(sources: Sources) -> Iterator[Sample]:
     for index, sensor in _sensors(sources.model):
         if "lastReading" in sensor:
-            works = reading(sensor["lastReading"]) is not None
+            find = reading if is_thermometer(sensor) else other_reading
+            works = find(sensor["lastReading"]) is not None
             # told from 3.5 on
             yield (index,), works and sensor.get("state") in (None, "ok")
+
+
+def _temperatures(sources: Sources) -> Iterator[Sample]:
+    for index, sensor in _sensors(sources.model):
+        if is_thermometer(sensor):
+            yield (index,), reading(sensor.get("lastReading"))
+
+
+def _other_readings(sources: Sources) -> Iterator[Sample]:
+    for index, sensor in _sensors(sources.model):
+        if not is_thermometer(sensor):
+            yield (index, unit_of(sensor)), other_reading(sensor.get("lastReading"))
 
 
 METRICS = (
@@ -132,9 +146,16 @@ METRICS = (
     Metric(
         "rrf_sensor_temperature_celsius",
         GAUGE,
-        "Reading of an analog sensor.",
+        "Reading of an analog sensor that measures a temperature.",
         ("sensor",),
-        each(_sensors, "lastReading", reading),
+        _temperatures,
+    ),
+    Metric(
+        "rrf_sensor_reading",
+        GAUGE,
+        "Reading of an analog sensor that measures something else, in its own unit.",
+        ("sensor", "unit"),
+        _other_readings,
     ),
     Metric(
         "rrf_sensor_ok",

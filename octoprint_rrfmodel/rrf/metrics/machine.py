@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..views.filament_monitors import FEEDING
 from ..views.machine import mapping
 from ..views.state_words import MONITORS, SPINDLES, STATUSES, TOOLS
-from ..views.warnings import FEEDING
 from .metric import (
     GAUGE,
     Metric,
@@ -24,6 +24,14 @@ from .metric import (
     states_of,
     tools,
 )
+
+AT_WORK = frozenset(
+    (
+        *("homing", "heating", "probing", "calibrating", "tool_change", "macro", "filament"),
+        *("pausing", "resuming", "cancelling", "waiting", "saving"),
+    )
+)
+"""What the line is doing while the machine isn't idle, in the words of the plugin's state."""
 
 BAD_UP_TIME = 1e12
 """Seconds from which on an up-time is nonsense."""
@@ -64,7 +72,10 @@ def _box_is_open(sources: Sources) -> Iterator[Sample]:
 
 
 def _status(sources: Sources) -> Iterator[Sample]:
-    return states_of(at(sources.model, "state.status"), STATUSES)
+    status = at(sources.model, "state.status")
+    # a model from before the command that the line waits for
+    is_old = status == "idle" and at(sources.status, "doing.what") in AT_WORK
+    return states_of("busy" if is_old else status, STATUSES)
 
 
 METRICS = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, cast
 
 from .merge import Changes, patched, replaced
@@ -22,6 +22,24 @@ class ModelStore:
         """The snapshot; empty while nothing is known. Not to be changed by anybody."""
         self.revision = 0
         """Grows by one with each reply that changed something; never falls."""
+
+    def merged(self, updates: Iterable[tuple[str, Any]]) -> tuple[Mapping[str, Any], Any]:
+        """Return the model with values put in, and what would change; nothing is kept of it.
+
+        Each comes with its path, as ``replace`` takes it, or with an empty one, as ``patch``.
+        """
+        trial = ModelStore()
+        trial.model = self.model
+        changes: dict[str, Any] = {}
+        for path, value in updates:
+            changes.update(trial.replace(path, value) if path else trial.patch(value))
+        return trial.model, changes
+
+    def keep(self, model: Mapping[str, Any]) -> None:
+        """Take what ``merged`` has made."""
+        if model is not self.model:
+            self.model = model
+            self.revision += 1
 
     def patch(self, members: Mapping[str, Any]) -> dict[str, Any]:
         """Lay members of a live reply over the model; return what changed, by top-level key."""

@@ -11,10 +11,10 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from .filament_monitors import FEEDING
 from .job import PRINTING, WITHOUT_JOB, progress
 from .machine import mapping
 from .state_words import MONITORS, STATUSES, known
-from .warnings import FEEDING
 
 Model = Mapping[str, Any]
 
@@ -55,6 +55,8 @@ class Facts(NamedTuple):
     """
 
     up_time: float | None = None
+    begins: bool = True
+    """Whether nothing of this model is known yet."""
     was_reset: bool = False
     """Whether the up-time has gone back with this model."""
     status: str | None = None
@@ -86,7 +88,10 @@ def facts_of(model: Model, last: Facts) -> Facts:
     up_time = _number(state.get("upTime"))
     if up_time is None:
         up_time = last.up_time
-    was_reset = up_time is not None and last.up_time is not None and up_time < last.up_time
+    # one that goes back in a model that goes on was spoilt before: a reset empties the model
+    begins = last.begins or not model
+    goes_back = up_time is not None and last.up_time is not None and up_time < last.up_time
+    was_reset = begins and goes_back
     if was_reset:
         last = last._replace(box=None, faults=frozenset(), monitors={}, layer=None, job=None)
     status, tool = state.get("status"), state.get("currentTool")
@@ -94,6 +99,7 @@ def facts_of(model: Model, last: Facts) -> Facts:
     now = _job(model, last)
     return Facts(
         up_time=up_time,
+        begins=begins and "state" not in model,
         was_reset=was_reset,
         status=known(status, STATUSES) if isinstance(status, str) else last.status,
         tool=tool if type(tool) is int else last.tool,

@@ -24,6 +24,10 @@ MODEL_READY = "model_ready"
 """The event that needs no two models: whoever fetches them knows when the whole one is there."""
 
 
+BOX_UNANSWERABLE = "message_box_unanswerable"
+"""Another one: while such a box holds the line no model comes."""
+
+
 class MachineEvent(NamedTuple):
     """One event."""
 
@@ -159,5 +163,5 @@ EVENTS = (
     Row("message_box_opened", _opened),
 )
 
-NAMES = (MODEL_READY, *(row.name for row in EVENTS))
+NAMES = (MODEL_READY, BOX_UNANSWERABLE, *(row.name for row in EVENTS))
 """The names of all events."""

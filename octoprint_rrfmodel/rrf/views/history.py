@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from array import array as packed
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from typing import Any, Callable, NamedTuple
 
 from .machine import array, mapping
+from .sensor_kinds import DEGREES, is_thermometer, other_reading, unit_of
 from .temperatures import ABSOLUTE_ZERO, BAD_READING, TARGET_OF_STATE
 
 INTERVAL_SECONDS = 2.0
@@ -35,6 +36,8 @@ class Kind(NamedTuple):
     """Decimals that are worth telling."""
     find: Callable[[Mapping[str, Any]], Any]
     """The value of a heater or sensor now, anything but a number where it has none."""
+    is_reported: bool = False
+    """Whether a temperature report tells it too."""
 
 
 class Series(NamedTuple):
@@ -70,19 +73,21 @@ def _target(heater: Mapping[str, Any]) -> float | None:
     return _temperature(heater.get(TARGET_OF_STATE.get(str(heater.get("state")), "")))
 
 
+def _sensor(sensor: Mapping[str, Any]) -> float | None:
+    find = _temperature if is_thermometer(sensor) else other_reading
+    return find(sensor.get("lastReading"))
+
+
 def _share(value: Any) -> float | None:
     return float(value) if type(value) in (int, float) and 0 <= value <= 1 else None
 
 
 KINDS = (
-    Kind("heater", "current", 2, lambda heater: _temperature(heater.get("current"))),
-    Kind("heater", "target", 2, _target),
+    Kind("heater", "current", 2, lambda heater: _temperature(heater.get("current")), True),
+    Kind("heater", "target", 2, _target, True),
     Kind("heater", "pwm", 3, lambda heater: _share(heater.get("avgPwm"))),
-    Kind("sensor", "current", 2, lambda sensor: _temperature(sensor.get("lastReading"))),
+    Kind("sensor", "current", 2, _sensor),
 )
-
-OTHER_UNITS = (("humidity", "%"), ("pressure", ""), ("linear", ""), ("voltage", "V"))
-"""Part of a sensor's type and its unit; all others tell degrees."""
 
 
 class History:
@@ -97,14 +102,20 @@ class History:
         self._told_at: dict[tuple[str, int, str], float] = {}
         self._ends_with_gap = True
 
-    def sample(self, model: Mapping[str, Any], now: float) -> None:
-        """Take a row from the model where it is time for one."""
+    def sample(
+        self, model: Mapping[str, Any], now: float, heaters: Container[int] | None = None
+    ) -> None:
+        """Take a row from the model where it is time for one.
+
+        With ``heaters`` only their temperatures are known to be those of now.
+        """
         self._follow_clock(now)
         if self._times and now - self._times[-1] < INTERVAL_SECONDS and not self._ends_with_gap:
             return
         values = {}
         for kind, number, thing in _things(model):
-            value = kind.find(thing)
+            is_known = heaters is None or (kind.is_reported and number in heaters)
+            value = kind.find(thing) if is_known else None
             if value is not None:
                 key = (kind.kind, number, kind.what)
                 values[key] = value
@@ -193,5 +204,4 @@ def _name(kind: Kind, thing: Mapping[str, Any]) -> str:
 def _unit(kind: Kind, thing: Mapping[str, Any]) -> str:
     if kind.what == "pwm":
         return ""
-    of_type = str(thing.get("type", "")).lower() if kind.kind == "sensor" else ""
-    return next((unit for part, unit in OTHER_UNITS if part in of_type), "°C")
+    return unit_of(thing) if kind.kind == "sensor" else DEGREES

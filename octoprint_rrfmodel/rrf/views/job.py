@@ -53,6 +53,12 @@ def card_job(model: Mapping[str, Any]) -> CardJob:
     )
 
 
+def board_job(model: Mapping[str, Any]) -> CardJob:
+    """Return what the board runs by itself, be it a print or only a simulation of one."""
+    status = _object(model.get("state")).get("status")
+    return CardJob("simulating") if status == "simulating" else card_job(model)
+
+
 def progress(model: Mapping[str, Any]) -> float | None:
     """Return how much of the file was read, 0 to 1; ``None`` where no size is known.
 

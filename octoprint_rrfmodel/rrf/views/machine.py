@@ -12,8 +12,14 @@ _VERSION = re.compile(r"(\d+)\.(\d+)(?:\.(\d+))?")
 M568_SETS_TOOLS = (3, 3)
 """From here on M568 sets a tool's temperatures and state; before, G10 and M104 do."""
 
+STOPS_AT_ONCE = (3, 6, 3)
+"""From here on M112 is acted on as it is read; before, it waits behind what the line runs."""
+
 PRINTING = ("processing", "simulating", "pausing", "resuming")
 """Words of ``state.status`` while a file on the card is under way."""
+
+UNSENDABLE = 1e9
+"""Far beyond every temperature and number of a thing; more digits than a line should have."""
 
 HAS_EXPRESSIONS = (3, 0)
 """From here on a parameter may be an expression in braces."""
@@ -110,9 +116,8 @@ class Machine:
         # told from 3.4 on; off after M564 H0
         if not self._is_current or move.get("noMovesBeforeHoming") is not True:
             return ""
-        homed = {
-            axis.get("letter"): axis.get("homed") for axis in map(mapping, array(move.get("axes")))
-        }
+        axes = map(mapping, array(move.get("axes")))
+        homed = {str(axis.get("letter")): axis.get("homed") for axis in axes}
         return "".join(letter for letter in letters if homed.get(letter) is False)
 
     def is_cold(self, tool: Mapping[str, Any], retracts: bool = False) -> bool:
@@ -131,6 +136,13 @@ class Machine:
 def mapping(value: Any) -> Mapping[str, Any]:
     """Return an object of the model, an empty one for anything else."""
     return value if isinstance(value, Mapping) else {}
+
+
+def numbers_of(value: Any) -> list[float]:
+    """Return an array of numbers that can be sent, an empty one for anything else."""
+    found = array(value)
+    are_numbers = all(type(each) in (int, float) and abs(each) < UNSENDABLE for each in found)
+    return found if are_numbers else []
 
 
 def array(value: Any) -> list[Any]:

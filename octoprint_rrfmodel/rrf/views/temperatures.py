@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from .sensor_kinds import is_thermometer
+
 Temperature = tuple[Any, Any]
 """Current value and target in degrees Celsius; ``None`` where there is none."""
 
@@ -13,8 +15,10 @@ ABSOLUTE_ZERO = -273.0
 BAD_READING = 1999.0
 """The firmware shows -273.15 for a sensor that has none, 2000 for one that is broken."""
 
-RESERVED = re.compile(r"B\d*|C\d*|T\d*")
-"""Names that a temperature report gives to beds, chambers and tools."""
+RESERVED = re.compile(r"(?:[a-z]|bed|chamber|tool|time)[\d_]*|_+.*", re.IGNORECASE)
+"""Names that are the host's own, with any number, whatever the letters' case. A temperature report
+has single letters for beds, chambers and tools; OctoPrint puts sensors among its own members:
+words for the same, and ``time``, which is no temperature. A test asks OctoPrint for them."""
 
 TARGET_OF_STATE = {"active": "active", "tuning": "active", "standby": "standby"}
 
@@ -35,7 +39,8 @@ def temperatures(model: Mapping[str, Any]) -> Temperatures:
 
     The first slot with a heater is the bed, the chamber; further ones are called ``B1``, ``C1``
     as in the firmware's own report (3.5 GCodes.cpp:4811). Sensors keep their names unless they
-    are reserved or there twice.
+    could be the host's own (``RESERVED``) or are there twice; those that measure no temperature
+    are left out.
     """
     heat = _object(model.get("heat"))
     heaters = _array(heat.get("heaters"))
@@ -54,8 +59,9 @@ def temperatures(model: Mapping[str, Any]) -> Temperatures:
     for letter, slots in (("B", beds), ("C", chambers)):
         for slot, value in slots[1:]:
             others[f"{letter}{slot}"] = value
+    counts: dict[str, int] = {}
     for name, reading in _free_sensors(model, heaters):
-        others[_unused(name, others)] = (reading, None)
+        others[_unused(name, others, counts)] = (reading, None)
     return Temperatures(
         tools, beds[0][1] if beds else None, chambers[0][1] if chambers else None, others
     )
@@ -83,24 +89,29 @@ def _slots(heaters: list[Any], slots: Any) -> Iterator[tuple[int, Temperature]]:
 
 def _free_sensors(model: Mapping[str, Any], heaters: list[Any]) -> Iterator[tuple[str, float]]:
     """Yield name and reading of each working sensor that isn't a heater's own."""
-    used = [_object(heater).get("sensor") for heater in heaters]
+    numbers = (_object(heater).get("sensor") for heater in heaters)
+    used = {number for number in numbers if isinstance(number, int)}
     sensors = _array(_object(model.get("sensors")).get("analog"))
     for number, sensor in enumerate(sensors):
         reading = _object(sensor).get("lastReading")
         if number in used or not isinstance(reading, (int, float)):
+            continue
+        if not is_thermometer(sensor):
             continue
         # a host keeps each name that it was ever told, so that one not yet known has to wait
         if ABSOLUTE_ZERO < reading < BAD_READING and "name" in sensor:
             yield str(sensor.get("name") or f"Sensor {number}"), reading
 
 
-def _unused(name: str, names: Mapping[str, Any]) -> str:
+def _unused(name: str, names: Mapping[str, Any], counts: dict[str, int]) -> str:
+    """Return a name that isn't there yet; ``counts`` is how often each was wanted before."""
     if RESERVED.fullmatch(name):
         name = f"Sensor {name}"
-    unused, count = name, 1
+    unused, count = name, counts.get(name, 1)
     while unused in names:
         count += 1
         unused = f"{name} {count}"
+    counts[name] = count
     return unused
 
 

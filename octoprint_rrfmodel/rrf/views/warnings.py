@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, Callable, NamedTuple
 
+from ..wire.alerts import alerts
 from .board_warnings import (
     Found,
     differing_versions,
@@ -19,6 +20,7 @@ from .board_warnings import (
     low_supplies,
     open_loads,
 )
+from .filament_monitors import only_own_prints, unfed
 from .machine import Machine, array, mapping
 
 Model = Mapping[str, Any]
@@ -26,14 +28,6 @@ Model = Mapping[str, Any]
 FAULT, WARNING, ADVICE = "fault", "warning", "advice"
 """How much a thing matters: something doesn't work, it may not work for long, it could work
 better."""
-
-FEEDING = frozenset(("ok", "noDataReceived", "noMonitor", "", None))
-"""Words of ``sensors.filamentMonitors[].status`` that say nothing bad of the filament; a monitor
-that has just been switched on has received no data."""
-
-ONLY_OWN_PRINTS = 1
-"""``sensors.filamentMonitors[].enableMode`` of a monitor that acts only while the board itself
-prints (M591 S1; told from 3.5 on)."""
 
 OFF = "off"
 """``state.status``, and code, of motors without supply voltage."""
@@ -93,31 +87,6 @@ def _heaters(model: Model) -> Iterator[Found]:
             yield Found((number,))
 
 
-def _monitors(model: Model) -> Iterator[tuple[int, Mapping[str, Any]]]:
-    """Yield each filament monitor that is on and watches what the current tool is fed with."""
-    tool = Machine(model).current_tool
-    fed = None if tool is None else tool.get("extruders")
-    for number, monitor in enumerate(array(mapping(model.get("sensors")).get("filamentMonitors"))):
-        monitor = mapping(monitor)
-        # 0 is off, 1 while printing, 2 always; before 3.5 a truth value
-        is_on = monitor.get("enableMode", monitor.get("enabled"))
-        if is_on and (not isinstance(fed, list) or number in fed):
-            yield number, monitor
-
-
-def _unfed(model: Model) -> Iterator[Found]:
-    for number, monitor in _monitors(model):
-        status = monitor.get("status")
-        if not isinstance(status, (str, type(None))) or status not in FEEDING:
-            yield Found((number,))
-
-
-def _only_own_prints(model: Model) -> Iterator[Found]:
-    for number, monitor in _monitors(model):
-        if monitor.get("enableMode") == ONLY_OWN_PRINTS:
-            yield Found((number,))
-
-
 def _startup_error(model: Model) -> Iterator[Found]:
     error = mapping(mapping(model.get("state")).get("startupError"))
     if error:
@@ -163,7 +132,7 @@ CONDITIONS = (
     ),
     Condition(
         "filament_error",
-        _unfed,
+        unfed,
         True,
         True,
         "Shows only in the model while a host prints (M591 S1); only what the current tool is fed"
@@ -231,7 +200,7 @@ CONDITIONS = (
     ),
     Condition(
         "filament_monitor_mode",
-        _only_own_prints,
+        only_own_prints,
         False,
         True,
         "With M591 S1 the firmware does nothing about it while a host prints.",
@@ -269,7 +238,26 @@ def warnings_of(model: Model, is_printing: bool = False) -> list[MachineWarning]
 
 def faults(model: Model) -> list[MachineWarning]:
     """Return what a print that the host streams can't go on with."""
-    return [each for each in warnings_of(model, is_printing=True) if each.code in GUARDS]
+    found = [each for each in warnings_of(model, is_printing=True) if each.code in GUARDS]
+    return found + [each for each in _told_in_a_box(model) if each not in found]
+
+
+def said(text: str, model: Model) -> list[MachineWarning]:
+    """Return what a text of the firmware's tells of that stops a print that the host streams.
+
+    For firmware whose model doesn't: drivers before 3.5, filament before 3.5.
+    """
+    fed = (Machine(model).current_tool or {}).get("extruders")
+    return [
+        MachineWarning(*alert)
+        for alert in alerts(text)
+        if alert.code != "filament_error" or not isinstance(fed, list) or alert.numbers[0] in fed
+    ]
+
+
+def _told_in_a_box(model: Model) -> list[MachineWarning]:
+    message = mapping(mapping(model.get("state")).get("messageBox")).get("message")
+    return said(message, model) if isinstance(message, str) else []
 
 
 def is_unhomed(model: Model) -> bool:

@@ -9,18 +9,21 @@ from __future__ import annotations
 
 import re
 
+from .alerts import alerts
+
 SERIOUS = (
     r"heater \d+ fault",  # 3.3 LocalHeater.cpp:743
     r"heating fault",
     r"temperature excursion",
-    r"temperature (rising|rose) too",
+    r"temperature (?:rising|rose) too",
     r"over ?temperature",
     r"short[- ]to[- ]ground",
-    r"driver \d+.*(error|fault|short)",
+    r"driver \d.{0,250}?(?:error|fault|short)",
     r"emergency stop",
     r"over-?voltage",
 )
-"""Patterns, in lower case, of texts that a person has to see."""
+"""Patterns, in lower case, of texts that a person has to see; none looks farther than a reply is
+long (256 bytes), or a line of many beginnings would take time that grows with its square."""
 
 HALTED = "machine is halted"
 """In the answer to all but a few commands after ``M112`` (3.5 GCodes2.cpp:585)."""
@@ -33,18 +36,9 @@ def is_serious(text: str) -> bool:
     return _SERIOUS.search(text.lower()) is not None
 
 
-GUARDED = (
-    (re.compile(r"heater \d+ fault"), "heater_fault"),
-    (re.compile(r"driver [\d.]+ error"), "driver_error"),
-)
-"""Serious errors of firmware before 3.4 that the model shows too, and as which warning; later
-firmware tells them without ``Error:``."""
-
-
 def guarded_warning(text: str) -> str | None:
-    """Return the code of the warning by which the model shows what a serious error is about."""
-    lowered = text.lower()
-    return next((code for pattern, code in GUARDED if pattern.search(lowered)), None)
+    """Return the code of the warning that says what a serious error is about."""
+    return next((alert.code for alert in alerts(text)), None)
 
 
 def is_halted(text: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -19,9 +20,13 @@ def words(line: str) -> dict[str, float | None]:
     >>> words("G0 X10 Y-5.5 F200")
     {'G': 0.0, 'X': 10.0, 'Y': -5.5, 'F': 200.0}
     """
-    return {
-        letter.upper(): float(number) if number else None for letter, number in _WORD.findall(line)
-    }
+    return {letter.upper(): _finite(number) for letter, number in _WORD.findall(line)}
+
+
+def _finite(number: str) -> float | None:
+    """Return a number, ``None`` for none and for one with more digits than a float takes."""
+    value = float(number) if number else math.inf
+    return value if math.isfinite(value) else None
 
 
 def number(value: float) -> str:

@@ -35,8 +35,27 @@ M36.1 begin."""
 _NOT_INSIDE = r'(?<!":)(?<!":\[)(?<!\},)'
 """Not behind what an object stands behind in another JSON: M36 and M20 answer with some, too."""
 
-_START = re.compile("|".join(_NOT_INSIDE + re.escape(start) for start in REPLY_STARTS))
+_NUMBER = r'(?:"line":[0-9]{1,10},)?'
+"""Current firmware (3.6.2 and newer, Duet3D/RepRapFirmware #1178) puts the number of the command
+into the answer to a numbered one, mostly as the first member; its place isn't promised."""
+
+_STARTS = (*(start[1:] for start in REPLY_STARTS if start != FILE_REPLY), '"err":-1,"line":')
+"""What a reply begins with behind its brace, and perhaps behind that member."""
+
+_START = re.compile(
+    rf"{_NOT_INSIDE}\{{{_NUMBER}(?:"
+    + "|".join(map(re.escape, _STARTS))
+    + rf'|"err":0,{_NUMBER}"fileName":)'
+)
 """The start of a reply that isn't a part of something else."""
+
+_NAME = '"line"'
+
+_LINE = re.compile(r'"line":([0-9]{1,10})(?=([,}]))')
+"""The member with the command's number, and what stands behind it."""
+
+_LAST_LINE = re.compile(r'"line":[0-9]{1,10}(?:,"[a-z]+":[0-9]+)?\}$')
+"""The same as the last member or the last but one, as before ``next``."""
 
 _BEHIND_OBJECT = re.compile(r"\}[^,\]}]")
 """An object's end and a character that can't stand behind it in JSON, unless in a text."""
@@ -63,6 +82,9 @@ class Found(NamedTuple):
     """The JSON text, or as much of it as has come."""
     rest: str
     """The line without it, stripped; a glued ``ok`` comes first. Empty for a whole line."""
+    number: int | None = None
+    """Line number of the command that it answers, where the firmware tells it; no longer a part
+    of ``reply``."""
 
     @property
     def is_of_a_file(self) -> bool:
@@ -83,14 +105,16 @@ def find_reply(line: str) -> Found | None:
     text = line[start:].rstrip()
     before = line[:start].strip("\0 \t\r\n")
     if not before and text[-1] == "}" and not _BEHIND_OBJECT.search(text):
-        return Found(text, "")
+        reply, number = _without_number(text)
+        return Found(reply, "", number)
     end = _end(text)
     after = text[end:].strip("\0 \t")
     if after.startswith("ok"):
         rest = f"{after} {before}" if before else after
     else:
         rest = f"{before} {after}" if before and after else before or after
-    return Found(text[:end], rest)
+    reply, number = _without_number(text[:end])
+    return Found(reply, rest, number)
 
 
 def without_warning(line: str) -> str:
@@ -108,6 +132,32 @@ def _start(line: str) -> int:
         return 0
     found = _START.search(line)
     return found.start() if found else -1
+
+
+def _without_number(text: str) -> tuple[str, int | None]:
+    """Return a reply without its member ``line``, and what that says; others are below it."""
+    if _NAME not in text:
+        return text, None
+    # where it stands in fact comes first: this runs for each reply of a print
+    start = 1 if text.startswith(_NAME, 1) else text.rfind(_NAME)
+    if start > 1 and not _LAST_LINE.match(text, start):
+        start = _member(text)
+    found = _LINE.match(text, start) if start >= 0 else None
+    if found is None:
+        return text, None
+    if found[2] == ",":
+        return text[:start] + text[found.end() + 1 :], int(found[1])
+    return text[: start - 1] + text[found.end() :], int(found[1])
+
+
+def _member(text: str) -> int:
+    """Return where the member ``line`` of the outermost object begins, -1 where it has none."""
+    level = 0
+    for found in _TEXT_OR_BRACE.finditer(text):
+        if level == 1 and found[0] == _NAME and text.startswith(":", found.end()):
+            return found.start()
+        level += _LEVELS.get(found[0], 0)
+    return -1
 
 
 def _end(text: str) -> int:

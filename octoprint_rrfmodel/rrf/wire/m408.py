@@ -56,9 +56,18 @@ class M408Model:
         self._legacy: dict[str, Any] = {}
         self._status: dict[str, Any] = {}
         self._config: dict[str, Any] = {}
+        self._before = self._forms()
+
+    def _forms(self) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        return self._legacy, self._status, self._config
+
+    def undo(self) -> None:
+        """Forget the last reply: it doesn't count."""
+        self._legacy, self._status, self._config = self._before
 
     def take(self, fields: dict[str, Any]) -> dict[str, Any]:
         """Keep a reply of whatever form and return the whole model, by top-level key."""
+        self._before = self._forms()
         if "heaters" in fields:
             self._legacy = patched(self._legacy, fields)[0]
             if fields.get("msgBox.mode") == -1:

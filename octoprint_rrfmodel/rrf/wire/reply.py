@@ -65,10 +65,10 @@ _HUGE = re.compile(r"[0-9](?:[eE]\+?[0-9]{3}|[0-9]{300})")
 """An exponent, or digits, that may leave the range of a float."""
 
 
-_FOREIGN = re.compile(r'"[^"]*[^"\x00-\x7f][^"]*"')
+_FOREIGN = re.compile(r'"[\x00-!#-\x7f]*[^\x00-\x7f][^"]*"')
 """A string with a letter beyond ASCII: a name that somebody gave, or a broken byte."""
 
-_FOREIGN_NAME = re.compile(r'[{,]"[^"\\:]*[^"\\:\x00-\x7f][^"\\:]*":')
+_FOREIGN_NAME = re.compile(r'[{,]"[\x00-!#-9;-\[\]-\x7f]*[^\x00-\x7f][^"\\:]*":')
 """A member's name with such a letter: the firmware's own names have none."""
 
 

@@ -1,4 +1,4 @@
-"""What was said on the line lately, without the plugin's own polls and without a file's lines."""
+"""What was said on the line lately: no polls of the plugin's, no file's lines, no secrets."""
 
 import collections
 import re
@@ -8,6 +8,7 @@ from octoprint.printer import PrinterCallback
 
 from ...host.tags import STATUS_TAG
 from ...link.terminal import RECEIVED, PollTrace
+from ...rrf.wire.masking import masked
 
 MOST_LINES = 1000
 
@@ -44,7 +45,7 @@ class GcodeStore(PrinterCallback):
         is_asked = AUTOMATIC.isdisjoint(tags)
         self._wants_temperatures = is_asked and command == "M105"
         if is_asked:
-            self._note(command, "command")
+            self._note(masked(command), "command")
 
     def on_printer_add_log(self, data):
         """Take a line of OctoPrint's log (OctoPrint's callback)."""
@@ -60,8 +61,9 @@ class GcodeStore(PrinterCallback):
         is_report = TEMPERATURES.match(received["text"])
         if not is_report or self._wants_temperatures:
             self._wants_temperatures = self._wants_temperatures and not is_report
-            self._note(received["text"], "response")
-            self._responded(received["text"])
+            text = masked(received["text"])
+            self._note(text, "response")
+            self._responded(text)
 
     def latest(self, count):
         """Return the latest ``count`` lines, oldest first."""

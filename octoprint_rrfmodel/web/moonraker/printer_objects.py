@@ -3,6 +3,7 @@
 import socket
 
 from ...rrf import klipper
+from ...rrf.gcode.doing import OTHER
 
 
 class PrinterObjects:
@@ -75,7 +76,9 @@ class PrinterObjects:
         return klipper.printer_info(self.world(), self._version(), socket.gethostname())
 
     def _host(self):
+        doing = self._link.doing()
         return klipper.Host(
+            is_at_work=doing is not None and doing.what != OTHER,
             is_connected=self.is_connected(),
             is_ready=self._follower.ready,
             has_protocol=not self._follower.is_mute,

@@ -53,6 +53,10 @@ class Sockets(LoginStatusListener):
         """Let the sockets see what a reply has changed."""
         self.announce()
 
+    def warmed(self, warmed):
+        """Let the sockets see temperatures that a line has told."""
+        self.announce()
+
     def reset(self):
         """Let the sockets see that the board began anew."""
         self.announce()

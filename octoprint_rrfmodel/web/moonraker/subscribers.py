@@ -4,6 +4,8 @@ All of it runs on Tornado's loop. A change is told at once, and then nothing for
 second. What many asked for alike is computed, compared and written as text once for all.
 """
 
+import collections
+
 from ...rrf import klipper
 from . import jsonrpc
 
@@ -32,12 +34,15 @@ class Subscribers:
         self._loop = loop
         self._subscriptions = {}
         self._latest = {}
+        # how many want the same; what nobody wants any more is kept no longer
+        self._counts = collections.Counter()
         self._timer = None
 
     def subscribe(self, connection, wanted):
         """Replace what a connection subscribed to; return the complete status and its time."""
         world = self._world()
         status = klipper.status(world, wanted)
+        self.unsubscribe(connection)
         if wanted:
             key = _key(wanted)
             # who knows the same is told the same, whenever they came
@@ -45,15 +50,19 @@ class Subscribers:
                 status = self._latest[key]
             self._latest[key] = status
             self._subscriptions[connection] = _Subscription(key, status)
-        else:
-            self.unsubscribe(connection)
+            self._counts[key] += 1
         return status, world.eventtime
 
     def unsubscribe(self, connection):
         """Forget a connection."""
-        self._subscriptions.pop(connection, None)
-        if not self._subscriptions:
-            self._latest.clear()
+        subscription = self._subscriptions.pop(connection, None)
+        if subscription is None:
+            return
+        key = subscription.wanted
+        self._counts[key] -= 1
+        if not self._counts[key]:
+            del self._counts[key]
+            self._latest.pop(key, None)
 
     def __len__(self):
         """Return how many connections are subscribed."""
@@ -89,6 +98,8 @@ class Subscribers:
         statuses = {}
         texts = {}
         for connection, subscription in due:
+            if self._subscriptions.get(connection) is not subscription:
+                continue  # gone since: sending to one may close it
             wanted, told = subscription.wanted, subscription.told
             if wanted not in statuses:
                 statuses[wanted] = klipper.status(world, dict(wanted))

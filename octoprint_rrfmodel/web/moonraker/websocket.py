@@ -3,13 +3,13 @@
 import itertools
 import logging
 from functools import partial
-from urllib.parse import urlsplit
 
 import tornado.websocket
 
 from ...host.answers import RequestRefused
 from ...rrf import klipper
-from ..access import caller_of
+from ..access import WithoutKeys, caller_of
+from ..origin import is_own
 from . import jsonrpc
 from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
 
@@ -22,7 +22,7 @@ POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
 
 
-class PrinterSocket(tornado.websocket.WebSocketHandler):
+class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
     """One client; everything here runs on Tornado's loop and nothing waits.
 
     ``hub`` knows all sockets, ``app`` is OctoPrint's Flask application, which knows users.
@@ -48,11 +48,7 @@ class PrinterSocket(tornado.websocket.WebSocketHandler):
 
     def check_origin(self, origin):
         """Return whether a page may open this: any that has a key, of sessions only our own."""
-        if not self.caller.is_of_session:
-            return True
-        forwarded = self.request.headers.get("X-Forwarded-Host", "").partition(",")[0]
-        hosts = (self.request.host.lower(), forwarded.strip().lower())
-        return urlsplit(origin).netloc.lower() in hosts
+        return not self.caller.is_of_session or is_own(self._app, self.request, origin)
 
     def open(self, *args, **kwargs):
         """Begin with nothing subscribed."""

@@ -341,6 +341,93 @@ def test_job_cancelled_at_the_machine(server, connected, select):
     assert_no_harm(board)
 
 
+OF_A_SCRIPT = {"M84", "M104", "M106", "M108", "M140", "M400", "M118"}
+"""What OctoPrint's own scripts and its cancelling send; M118 is of the one before a print."""
+
+
+@pytest.fixture
+def started_by_script(server):
+    """A script of OctoPrint's that runs before each print."""
+    for script in ('M118 P0 S"before"', ""):
+        server.post("/api/settings", json={"scripts": {"gcode": {"beforePrintStarted": script}}})
+        if script:
+            yield
+
+
+def test_job_of_the_machine_gets_none_of_octoprints_scripts(
+    server, connected, select, started_by_script
+):
+    board = connected()
+    board.board.execute(f'M32 "{FILES["Two layers.gcode"]}"', channel="http")
+    with PushListener(server, ADMIN) as push:
+        wait_printing(server)
+        board.board.execute("M25", channel="http")
+        server.wait_for(lambda: board.board.job.state == "paused", 20, "the pause")
+        board.board.execute("M0", channel="http")
+        wait_job_gone(server, board)
+        # into this one would go what OctoPrint has to say about the end of the other
+        board.board.execute(f'M32 "{FILES["square.gcode"]}"', channel="http")
+        push.wait_for_event("PrintCancelled", 40)
+        wait_printing(server)
+        assert server.job()["job"]["file"]["display"] == "square.gcode"
+        do(server, command="cancel")
+        server.wait_state("Operational", 40)
+        wait_job_gone(server, board)
+        helpers.wait_polls(server, 3)
+        assert len(push.events("PrintCancelled")) == 2
+        assert push.events("PrintDone") == []
+    sent = helpers.commands(board)
+    assert [line for line in sent if line.split()[0] in OF_A_SCRIPT and line != "M400 M0"] == []
+    # and a print of OctoPrint's own has them
+    select("square.gcode", start=True)
+    wait_printing(server)
+    do(server, command="cancel")
+    server.wait_state("Operational", 40)
+    sent = helpers.commands(board)[len(sent) :]
+    assert {line.split()[0] for line in sent} >= OF_A_SCRIPT
+    assert_no_harm(board)
+
+
+def say_done_first(board):
+    """Let the board say of each print first that it is done, as the firmware does."""
+    output, said = board.board.job._output, [""]
+    text = output.text
+
+    def say(line, *arguments, **options):
+        if line.startswith("Cancelled printing file") and not said[0].startswith("Done printing"):
+            text("Done printing file\n")
+        said[0] = line
+        return text(line, *arguments, **options)
+
+    output.text = say
+
+
+@pytest.mark.parametrize("where", ["octoprint", "octoprint, paused", "machine"])
+def test_print_that_is_cancelled_has_no_other_end(server, connected, select, where):
+    board = connected()
+    say_done_first(board)
+    with PushListener(server, ADMIN) as push:
+        select("square.gcode", start=True)
+        wait_printing(server)
+        if where == "machine":
+            # too fast for OctoPrint to have seen the pause
+            board.board.execute("M25", channel="http")
+            server.wait_for(lambda: board.board.job.state == "paused", 20, "the pause")
+            board.board.execute("M0", channel="http")
+        else:
+            if "paused" in where:
+                do(server, command="pause", action="pause")
+                server.wait_state("Paused", 30)
+            do(server, command="cancel")
+        server.wait_state("Operational", 40)
+        wait_job_gone(server, board)
+        helpers.wait_polls(server, 4)
+        assert server.state() == "Operational"
+        assert len(push.events("PrintCancelled")) == 1
+        assert push.events("PrintDone") == []
+    assert_no_harm(board)
+
+
 # deleting and uploading
 
 

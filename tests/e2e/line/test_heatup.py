@@ -93,14 +93,52 @@ def test_heating_by_a_command(server, board_factory, firmware):
     helpers.wait_equal(server, board)
 
 
-def test_silence_would_have_ended_the_connection(server, board_factory):
-    """The timeouts are as short as the other tests need them: proof by a board that is silent."""
+def klipper(server, name):
+    response = server.get(f"/plugin/rrfmodel/printer/objects/query?{name}")
+    return response.json()["result"]["status"][name]
+
+
+def test_heating_is_seen_everywhere(server, board_factory):
+    """What OctoPrint shows of a heat-up is in the model, and nothing old is shown as if now."""
     board = board_factory(firmware="3.5.3")
     helpers.connect(server, board)
-    cold_bed(board)
-    server.commands("M190 S60")
-    server.wait_for(lambda: "M190 S60" in helpers.commands(board), 10, "the command to arrive")
-    # what the firmware would do after an M409 as the last request
-    board.board.channels["USB"].status_request = "M409"
-    server.wait_disconnected(HEATING_SECONDS)
-    assert server.state() != "Operational"
+    heater = cold_bed(board)
+    server.commands("M190 S60", "M117 done")
+    server.wait_for(lambda: "M190 S60" in helpers.commands(board), 20, "M190 to arrive")
+    doing = server.wait_for(lambda: helpers.status(server)["doing"], 5, "what is done")
+    assert (doing["command"], doing["what"]) == ("M190 S60", "heating")
+    begun = heater["current"]
+    server.wait_for(lambda: heater["current"] > begun + 1, 20, "some heat")
+
+    def is_shown():
+        own = server.get("/api/printer").json()["temperature"]["bed"]
+        bed = helpers.value(server, "heat.heaters[0]")
+        return (
+            bed["current"] > begun + 1
+            and abs(bed["current"] - own["actual"]) < 1
+            and (bed["active"], own["target"]) == (60, 60)
+            and abs(klipper(server, "heater_bed")["temperature"] - own["actual"]) < 1
+        )
+
+    server.wait_for(is_shown, 5, "the temperature in model, OctoPrint and Klipper's objects")
+    state = helpers.status(server)
+    assert state["doing"]["what"] == "heating", "all of that while the command runs"
+    assert klipper(server, "idle_timeout")["state"] == "Printing"
+    metrics = server.get("/plugin/rrfmodel/metrics").text
+    assert 'rrf_status{status="idle"} 0' in metrics
+    assert 'rrf_status{status="busy"} 1' in metrics
+    told = server.get("/plugin/rrfmodel/history").json()
+    (bed,) = [each["values"] for each in told["series"] if each["id"] == "heater0.current"]
+    assert None not in bed[-2:]
+    assert bed[-1] > begun + 1
+    # right behind it the line isn't said to be dead
+    seen = []
+
+    def is_over():
+        state = helpers.status(server)
+        seen.append((state["stale"], state["blocked"]))
+        return state["doing"] is None and not state["stale"]
+
+    server.wait_for(is_over, 40, "fresh news behind the command")
+    assert (True, None) not in seen
+    server.wait_for(lambda: "M117 done" in helpers.commands(board), 10, "the next command")

@@ -172,3 +172,49 @@ def test_box_of_a_macro_that_holds_the_line(server, connected):
     board.board.message("- Look -\nIs it there?\nSend M292 to continue\n")
     server.wait_for(lambda: box_warning(server), 3, "the warning")
     assert server.wait_for(lambda: not box_warning(server), 15, "the end of the warning")
+
+
+ASKS = "- Look -\nIs it there?\nSend M292 to continue or M292 P1 to cancel\n"
+MACRO = 'M98 P"0:/macros/ask.g"'
+
+
+def hold(server, board, lines, seconds):
+    """Let a macro that is started over USB hold the line with a box, as the firmware does."""
+    board.board.card.write("0:/macros/ask.g", f"G4 S{seconds}\n")
+    lines()
+    server.wait_for(lambda: MACRO in helpers.commands(board), 20, "the macro to begin")
+    board.board.channels["USB"].status_request = "M409"
+    board.board.message(ASKS)
+
+
+def test_box_that_holds_the_line_is_told_and_waited_for(server, connected):
+    board = connected()
+    with PushListener(server, ADMIN) as push:
+        push.wait_for_plugin(bool)
+        hold(server, board, lambda: server.commands(MACRO, "M117 behind"), 8)
+        notice = push.wait_for_plugin(lambda found: found.get("code") == "box_waits", 3)
+        assert "panel" in notice["text"]
+        push.wait_for_event("plugin_rrfmodel_message_box_unanswerable", 3)
+        told = server.wait_for(
+            lambda: [w for w in helpers.status(server)["warnings"] if "unanswerable" in w["code"]],
+            3,
+            "the warning",
+        )
+        assert told[0]["fix"] == "recover"
+        # answered elsewhere, everything goes on
+        server.wait_for(lambda: "M117 behind" in helpers.commands(board), 30, "the line behind")
+        server.wait_for(lambda: not box_warning(server), 10, "the end of the warning")
+
+
+def test_box_that_holds_a_print_leaves_a_restart(server, connected):
+    board = connected()
+    server.upload("asks.gcode", f"G4 P1\n{MACRO}\nG4 P2\n")
+    hold(server, board, lambda: server.select_and_print("asks.gcode"), 600)
+    server.wait_for(lambda: box_warning(server), 5, "the warning")
+    response = server.post("/api/plugin/rrfmodel", json={"command": "recover"})
+    assert response.status_code == 204, response.text
+    server.wait_for(lambda: "M999" in helpers.commands(board), 30, "the restart to be sent")
+    board.board.power_cycle()
+    server.wait_for(lambda: server.state() == "Operational", 60, "the board to be back")
+    helpers.wait_ready(server, 30)
+    assert not box_warning(server)

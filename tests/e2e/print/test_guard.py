@@ -1,5 +1,6 @@
 """A print that OctoPrint streams is paused by what would ruin it, and stays so until it is over."""
 
+import re
 import time
 
 import pytest
@@ -84,6 +85,46 @@ def resume(server, **request):
 
 def paused(push):
     return [found for found in push.of_plugin() if found.get("code") == "print_paused"]
+
+
+@pytest.mark.parametrize("firmware", ["3.3", "3.4"])
+def test_driver_error_in_words_alone_pauses(server, printing, firmware):
+    """The model of older firmware shows no drivers: nobody can tell when it is over."""
+    board = printing(firmware=firmware)
+    board.board.inject("driver_error:2")
+    server.wait_state("Paused", PAUSE_SECONDS)
+    told = pause(server)
+    assert told["values"]["next"] == "resume"
+    assert [cause["code"] for cause in told["causes"]] == ["driver_error_0_2"]
+    assert resume(server).status_code == 204
+    server.wait_state("Printing")
+
+
+def test_one_spoilt_reply_pauses_nothing(server, printing):
+    """One flipped bit in an up-time, and a heater's state that is read wrong once."""
+    board = printing()
+    resets = helpers.status(server)["resets"]
+    transmit, spoilt = board.board.transmit, []
+
+    def with_a_spoilt_reply(*args, **kwargs):
+        data = transmit(*args, **kwargs)
+        for old, new in (
+            (rb'("upTime":)(\d)', rb"\g<1>9\2"),
+            (rb'"state":"off"', b'"state":"fault"'),
+        ):
+            if new not in spoilt and b'"flags":"d99fin"' in data:
+                changed = re.sub(old, new, data, count=1)
+                if changed != data:
+                    spoilt.append(new)
+                    return changed
+        return data
+
+    board.board.transmit = with_a_spoilt_reply
+    helpers.wait_polls(server, 6)
+    assert len(spoilt) == 2
+    assert server.state().startswith("Printing")
+    assert helpers.status(server)["resets"] == resets
+    assert pause(server) is None
 
 
 @pytest.mark.parametrize("fault, code", FAULTS)

@@ -1,5 +1,7 @@
 """OctoPrint's settings for RepRapFirmware: told, set by one button, set back; the profile too."""
 
+import shutil
+
 import pytest
 import yaml
 
@@ -280,11 +282,27 @@ def test_offsets_that_a_shared_nozzle_has_not_come_back(server, board_factory, p
 def test_file_of_an_older_version_is_taken_back(server, board_factory, profile):
     helpers.connect(server, board_factory(machine="idex"))
     written = server.basedir / "data" / "rrfmodel" / "changed_profiles.json"
+    written.parent.mkdir(parents=True, exist_ok=True)
     written.write_text('{"_default": {"old": 1, "new": 3}}', encoding="utf-8")
     patch_extruder(server, {"count": 3, "offsets": [[0.0, 0.0]] * 3})
     command(server, "restore_settings")
     assert extruder(server) == profile
     assert not written.exists()
+
+
+def test_clean_up_of_the_plugins_data_leaves_what_takes_changes_back(
+    server, board_factory, profile
+):
+    helpers.connect(server, board_factory(machine="idex"))
+    before = server.get(PROFILE).json()
+    assert command(server, "fix_settings").status_code == 204
+    assert command(server, "fix_profile").status_code == 204
+    assert extruder(server)["count"] > profile["count"]
+    # as the plugin manager does it (its _cleanup_data)
+    shutil.rmtree(server.basedir / "data" / "rrfmodel", ignore_errors=True)
+    assert command(server, "restore_settings").status_code == 204
+    assert server.get(PROFILE).json() == before
+    assert list(server.basedir.glob("rrfmodel_*")) == []
 
 
 def test_unknown_command(server):

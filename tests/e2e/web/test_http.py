@@ -30,6 +30,7 @@ STATUS_TYPES = {
     "resets": int,
     "counters": dict,
     "warnings": list,
+    "too_large": list,
     "first_run": bool,
 }
 COUNTERS = {"polls", "replies", "bytes", "malformed", "out_of_buffers", "timeouts", "rewritten"}

@@ -135,7 +135,21 @@ def test_refuses_who_shows_nothing(server, options):
 @pytest.mark.both_hosts("each tells by its own code who somebody is")
 def test_refuses_a_session_on_another_page(server):
     cookie = session_cookie(server, ADMIN)
-    assert status_of_handshake(server, cookie=cookie, origin="http://evil.example") == 403
+    own = server.url
+    for origin in (
+        "http://evil.example",
+        "null",
+        "file://",
+        "data:",
+        "",
+        own.replace("http", "https", 1),
+        own + "1",
+        own.rpartition(":")[0],
+        own + "/",
+        own.replace("//", "//user@", 1),
+        own + ".evil.example",
+    ):
+        assert status_of_handshake(server, cookie=cookie, header=[f"Origin: {origin}"]) == 403
     # a page that knows a key may be anywhere
     assert status_of_handshake(server, ADMIN, origin="http://dashboard.example") == 101
 

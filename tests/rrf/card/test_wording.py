@@ -9,6 +9,8 @@ from tests.support.places import ROOT
 JOB = CardJob("paused", "0:/gcodes/a.gcode", 500, 123)
 PRINTS = Situation(shows_print=True, job=JOB)
 ENDED = Situation(shows_print=True, hides_print=True, job=JOB)
+PAUSED = Situation(shows_pause=True, job=JOB)
+CANCELS = Situation(shows_print=True, cancels=True, job=JOB)
 OPENED = Situation(opened=("two_uidj.gco", 667))
 
 POSITION = "Count 0 0 0 Machine 0.000 0.000 0.000 Bed comp 0.000"
@@ -41,6 +43,24 @@ CASES = {
     "printing": [
         ("SD printing byte 5/500", ENDED, "Not SD printing."),
         ("SD printing byte 5/500", PRINTS, None),
+    ],
+    "done": [
+        ("Done printing file", PRINTS, "// how the print has ended comes next"),
+        ("Done printing file", CANCELS, "// the print has ended, as it was to"),
+        ("Done printing file", PAUSED, None),
+        ("Done printing file", Situation(), None),
+    ],
+    "finished": [
+        ("Finished printing file a.g, print time was 0h 2m", PRINTS, "Done printing file"),
+        ("Finished printing file a.g, print time was 0h 2m", PAUSED, "// action:resumed"),
+        ("Finished printing file a.g, print time was 0h 2m", CANCELS, None),
+        ("Finished printing file a.g, print time was 0h 2m", Situation(), None),
+    ],
+    "cancelled": [
+        ("Cancelled printing file a.g, print time was 0h 0m", PRINTS, "// action:cancel"),
+        ("Cancelled printing file a.g, print time was 0h 0m", PAUSED, "// action:cancel"),
+        ("Cancelled printing file a.g, print time was 0h 0m", CANCELS, None),
+        ("Cancelled printing file a.g, print time was 0h 0m", Situation(), None),
     ],
     "position": [
         (
@@ -98,7 +118,7 @@ def test_beginnings_are_those_of_the_lines():
 
 
 @pytest.mark.parametrize(
-    "line", ["", "\n", "T:20.0 /0.0", "Warning: x", "Finished printing file a", "SD", "X:"]
+    "line", ["", "\n", "T:20.0 /0.0", "Warning: x", "Finished at last", "SD", "X:"]
 )
 def test_other_line_stays_and_costs_no_look_at_the_model(line):
     assert reword(line, lambda: pytest.fail("asked")) == line

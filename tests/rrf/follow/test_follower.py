@@ -287,6 +287,8 @@ def test_reset_is_told_once_and_the_model_begins_anew():
     follower = following(board)
     board.reset()
     revision = follower.store.revision
+    # a second answer has to say so
+    assert serve(follower, board).is_doubted
     assert serve(follower, board).reset
     assert follower.store.model == {}
     assert follower.store.revision > revision

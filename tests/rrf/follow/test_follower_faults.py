@@ -5,7 +5,8 @@ import copy
 import pytest
 
 from octoprint_rrfmodel.rrf.follow.follower import Follower
-from octoprint_rrfmodel.rrf.follow.poll import LIVE_KEYS, PATIENCE
+from octoprint_rrfmodel.rrf.follow.live import LIVE_KEYS
+from octoprint_rrfmodel.rrf.follow.poll import PATIENCE
 from octoprint_rrfmodel.rrf.model.merge import DEEPEST
 from octoprint_rrfmodel.rrf.wire.line import NO_BUFFERS
 from octoprint_rrfmodel.rrf.wire.reply import MalformedReply
@@ -75,11 +76,47 @@ def test_live_root_without_room_comes_in_parts():
     assert follower.store.model == board.model
     asked = len(board.asked)
     serve(follower, board, 2 * len(LIVE_KEYS))
-    assert set(board.keys_asked(asked)) == set(LIVE_KEYS)
+    # the whole is tried again now and then
+    assert set(board.keys_asked(asked)) - {""} == set(LIVE_KEYS)
     board.set("heat.heaters[0].current", 12.5)
     board.set("tools[0].name", "new")
     serve(follower, board, 30)
     assert follower.store.model == board.model
+
+
+def test_whole_live_answers_come_back_as_soon_as_there_is_room():
+    board = Board()
+    follower = following(board)
+    follower.take(NO_BUFFERS)
+    follower.take(NO_BUFFERS)
+    asked = len(board.asked)
+    serve(follower, board, len(LIVE_KEYS) + 3)
+    assert board.keys_asked(asked) == [*LIVE_KEYS, "", "", ""]
+
+
+def test_whole_live_answer_is_tried_less_often_where_there_is_never_room():
+    board = Board()
+    board.rooms = {"": len(board.reply(LIVE)) - 1}
+    follower = following(board, most=120)
+    serve(follower, board, 200)
+    asked = len(board.asked)
+    serve(follower, board, 600)
+    tries = board.keys_asked(asked).count("")
+    assert 1 <= tries <= 600 / len(LIVE_KEYS) / 10
+    assert follower.short_of_buffers == 0
+
+
+def test_fault_is_believed_where_live_values_come_in_parts():
+    board = Board()
+    board.model["heat"]["heaters"][1]["state"] = "active"
+    board.rooms = {"": len(board.reply(LIVE)) - 1}
+    follower = following(board, most=120)
+    serve(follower, board, 30)
+    board.set("heat.heaters[1].state", "fault")
+    while not serve(follower, board).is_doubted:
+        pass
+    serve(follower, board)
+    assert follower.store.model["heat"]["heaters"][1]["state"] == "fault"
 
 
 def test_key_that_never_fits_lets_the_others_have_their_turn():
@@ -91,7 +128,15 @@ def test_key_that_never_fits_lets_the_others_have_their_turn():
     others = {key: value for key, value in board.model.items() if key != "move"}
     known = {key: value for key, value in follower.store.model.items() if key != "move"}
     assert known == others
-    assert not follower.ready
+    # said to be so, and asked for rarely
+    assert follower.ready
+    assert not follower.behind
+    assert follower.too_large == ("move",)
+    asked = len(board.asked)
+    for _ in range(200):
+        serve(follower, board)
+    assert 1 <= board.keys_asked(asked).count("move") <= 5
+    assert follower.short_of_buffers == 0
     board.set("heat.heaters[0].max", 5.0)
     board.set("state.status", "busy")
     for _ in range(60):
@@ -99,6 +144,35 @@ def test_key_that_never_fits_lets_the_others_have_their_turn():
     assert follower.store.model["heat"] == board.model["heat"]
     board.rooms = {}
     settle(follower, board, 90)
+
+
+@pytest.mark.parametrize("path", ["global", "global.big"])
+def test_member_that_never_fits_is_left_out_and_the_rest_is_there(path):
+    board = Board()
+    board.model["global"] = {"big": {"x": {"y": "z" * 500}}, "mine": [1, {"a": None}], "n": 5}
+    follower = Follower()
+    board.rooms = {"global": 0 if path == "global" else 150, "global.big": 0}
+    serve(follower, board, 90)
+    assert follower.ready
+    assert not follower.behind
+    assert follower.too_large == (path,)
+    expected = {**board.model, "global": {"mine": [1, {"a": None}], "n": 5}}
+    if path == "global":
+        del expected["global"]
+    assert follower.store.model == expected
+    # all else goes on as if it weren't there, however often it changes
+    asked = len(board.asked)
+    for number in range(100):
+        board.bump("global")
+        board.set("state.displayMessage", str(number))
+        serve(follower, board, 3)
+    serve(follower, board, 5)
+    assert follower.store.model["state"]["displayMessage"] == "99"
+    assert board.keys_asked(asked).count(path) <= 8
+    board.rooms = {}
+    follower.refetch("global")
+    settle(follower, board, 90)
+    assert follower.too_large == ()
 
 
 def test_live_part_that_never_fits_lets_the_others_have_their_turn():

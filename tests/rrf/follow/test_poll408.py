@@ -138,7 +138,7 @@ def test_time_that_falls_is_a_reset():
     board = OldBoard()
     follower = following(board)
     board.set(time=3.0)
-    run(follower, board)
+    run(follower, board, 2)
     assert follower.resets == 1
     assert follower.store.model == {}
     assert not follower.ready
@@ -243,7 +243,7 @@ def test_silence_after_a_reset_does_not_lose_the_board():
     board = OldBoard()
     follower = following(board)
     board.set(time=3.0)
-    run(follower, board)
+    run(follower, board, 2)
     assert follower.resets == 1
     for _ in range(40):
         follower.timed_out()

@@ -370,6 +370,9 @@ def test_news_that_are_old_leave_it_to_the_firmware():
     assert go("job", machine, action="resume") == ["M24"]
     unhomed = on(is_current=False, **{"move.axes[0].homed": False})
     assert go("jog", unhomed, axes={"X": 1}) == ["M120 G21 G91 G1 X1 M121"]
+    assert go("jog", unhomed, axes={"X": 999}, absolute=True) == ["M120 G21 G90 G1 X999 M121"]
+    assert go("filament", machine, action="unload") == ["M702"]
+    assert go("filament", machine, action="load", name="A") == ["M702", 'M701 S"A"', "M703"]
 
 
 def test_every_command_is_documented():

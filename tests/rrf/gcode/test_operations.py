@@ -67,6 +67,17 @@ CASES = [
     ("extrude", (5, 300), ALL, COLD, Refused("too_cold", "0")),
     ("extrude", (-5, 300), ALL, COLD, Refused("too_cold", "0")),
     ("extrude", (5, 300), ALL, {**COLD, "is_current": False}, one("M120 M83 G1 E5 F300 M121")),
+    (
+        "extrude",
+        (5, 300),
+        ALL,
+        {**UNSELECTED, "is_current": False},
+        one("M120 M83 G1 E5 F300 M121"),
+    ),
+    # which tool it will be only the firmware knows
+    ("heat_tool", (None, 205), ALL, {**CHANGER, "is_current": False}, one("M104 S205")),
+    ("extrusion_factor", (95,), ALL, {**CHANGER, "is_current": False}, one("M221 S95")),
+    ("extrusion_factor", (95,), ALL, {**UNSELECTED, "is_current": False}, one("M221 S95")),
     ("select", (3,), ALL, CHANGER, one("T3")),
     ("select", (3,), ALL, NOTHING_KNOWN, one("T3")),
     ("select", (2,), ALL, CHANGER, Refused("no_such_tool", "2")),

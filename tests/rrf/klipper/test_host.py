@@ -186,3 +186,10 @@ def test_printer_info_without_a_board():
 def test_version_of_a_board_may_be_missing():
     model = changed(model_of(), **{"boards[0].firmwareVersion": None})
     assert get(world(model), "mcu", "mcu_version") is None
+
+
+def test_a_machine_that_the_line_waits_for_is_not_idle():
+    model = {"state": {"status": "idle"}}
+    assert get(world(model, HOST), "idle_timeout", "state") != "Printing"
+    at_work = world(model, HOST._replace(is_at_work=True))
+    assert get(at_work, "idle_timeout", "state") == "Printing"

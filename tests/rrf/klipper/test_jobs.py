@@ -99,16 +99,19 @@ SEQUENCES = [
     pytest.param([ALMOST, "halted"], "error", id="halted"),
     pytest.param(["paused", "halted"], "error", id="halted while paused"),
     pytest.param(["processing", "starting"], "error", id="starts"),
-    pytest.param([ALMOST, RESET], "error", id="up-time went back"),
-    pytest.param(["paused", RESET], "error", id="up-time went back while paused"),
-    pytest.param([ALMOST, RESET, RESET], "error", id="stays so after the reset"),
-    pytest.param([ALMOST, FINISHED, RESET], "error", id="reset after the text"),
-    pytest.param([ALMOST, RESET_AND_PRINTING], "printing", id="reset and printing"),
+    pytest.param([ALMOST, "forget", RESET], "error", id="reset"),
+    pytest.param(["paused", "forget", RESET], "error", id="reset while paused"),
+    pytest.param([ALMOST, "forget", RESET, RESET], "error", id="stays so after the reset"),
+    pytest.param([ALMOST, FINISHED, "forget", RESET], "error", id="reset after the text"),
+    pytest.param([ALMOST, "forget", RESET_AND_PRINTING], "printing", id="reset and printing"),
     pytest.param(["processing", "forget", FAR], "error", id="forgotten"),
     pytest.param([ALMOST, "idle", "forget", FAR], "standby", id="forgotten after the end"),
-    pytest.param([ALMOST, "idle", RESET], "standby", id="reset after the end"),
+    pytest.param([ALMOST, "idle", "forget", RESET], "standby", id="reset after the end"),
     pytest.param(["processing", "forget", "processing"], "printing", id="found again"),
     # it goes on
+    pytest.param(
+        [at(state__upTime=9000), at(state__upTime=501)], "printing", id="an up-time was spoilt"
+    ),
     pytest.param(["processing", BEHIND["busy"]], "printing", id="busy within"),
     pytest.param(["processing", BEHIND["changingTool"]], "printing", id="tool change within"),
     pytest.param(["processing", BEHIND["off"], "processing"], "printing", id="no power within"),
@@ -166,7 +169,7 @@ def test_message_is_the_last_error_of_a_print_that_ended_with_one(steps, message
 
 
 def test_reset_leaves_name_and_progress_of_the_print_that_it_ended():
-    session = Session().take("processing", RESET)
+    session = Session().take("processing", "forget", RESET)
     assert session.get("print_stats", "filename") == "sub/part.gcode"
     assert session.get("print_stats", "print_duration") == 60
     assert session.get("virtual_sdcard", "progress") == 0.25

@@ -187,3 +187,22 @@ def test_row_is_found_by_the_name_of_its_objects():
     for machine, firmware in MODELS:
         at = world(model_of(machine, firmware))
         assert not [name for name in names(at) if get(at, name, "nosuch") is not None]
+
+
+def test_what_is_named_twice_is_wanted_once():
+    wanted = wanted_of({"heater_bed": ["target", "power"] * 5_500})
+    assert wanted == {"heater_bed": ("target", "power")}
+
+
+@pytest.mark.parametrize(
+    "objects",
+    [
+        {f"temperature_sensor {number}": None for number in range(501)},
+        {"heater_bed": [f"field{number}" for number in range(3001)]},
+        {f"fan {number}": [f"field{field}" for field in range(20)] for number in range(200)},
+    ],
+    ids=["objects", "fields of one", "fields of all"],
+)
+def test_too_much_at_once_is_refused(objects):
+    with pytest.raises(ValueError, match="No more than"):
+        wanted_of(objects)

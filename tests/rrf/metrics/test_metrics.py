@@ -160,6 +160,8 @@ def models():
         {"type": "wifi", "signal": None, "rssi": -61},
         {"type": "ethernet", "signal": None},
     ]
+    analog = models["toolchanger"]["sensors"]["analog"]
+    analog += [None] * (9 - len(analog)) + [{"type": "dhthumidity", "lastReading": 38.0}]
     models["toolchanger"]["boards"][2]["drivers"] = [{"status": 1 << 1}, {"status": 1 << 8}]
     return models
 
@@ -227,6 +229,7 @@ EXPECTED = {
     "rrf_heater_pwm_ratio": ("printer", ("1",), at("heat", "heaters", 1, "avgPwm")),
     "rrf_sensor_info": ("printer", ("3", "mcu", "mcutemp"), 1),
     "rrf_sensor_temperature_celsius": ("printer", ("1",), HEATED),
+    "rrf_sensor_reading": ("toolchanger", ("9", "%"), 38.0),
     "rrf_sensor_ok": ("printer", ("1",), 1),
     "rrf_fan_info": ("printer", ("1", "Hotend"), 1),
     "rrf_fan_requested_ratio": ("printer", ("0",), 0.5),
@@ -453,6 +456,10 @@ READINGS = [
     ({"lastReading": -273.15}, None, 0),
     ({"lastReading": None}, None, 0),
     ({"name": "a"}, None, None),
+    # what is no temperature has no bounds of one
+    ({"lastReading": 38.0, "type": "dhthumidity"}, None, 1),
+    ({"lastReading": 101325, "type": "bme-pressure"}, None, 1),
+    ({"lastReading": None, "type": "linear-analog"}, None, 0),
 ]
 
 

@@ -154,3 +154,24 @@ def test_a_whole_machine(firmware):
     _, values = told(kept(board.model()))
     assert values["heater1.target"] == [200.0]
     assert values["heater1.current"][0] > 20
+
+
+def test_a_report_tells_temperatures_of_its_heaters_and_nothing_else():
+    model = {
+        "heat": {
+            "heaters": [
+                {"current": 20.0, "state": "active", "active": 60, "avgPwm": 0.5},
+                {"current": 21.0, "state": "off"},
+            ]
+        }
+    }
+    history = History()
+    history.sample(model, 100.0)
+    history.sample(model, 103.0, frozenset((0,)))
+    told = {series.id: series.values for series in history.since().series}
+    assert told == {
+        "heater0.current": [20.0, 20.0],
+        "heater1.current": [21.0, None],
+        "heater0.target": [60.0, 60.0],
+        "heater0.pwm": [0.5, None],
+    }

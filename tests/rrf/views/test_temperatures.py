@@ -108,12 +108,23 @@ SENSORS = [
     ({"lastReading": -273.15, "name": "a"}, {}),
     ({"lastReading": 2000.0, "name": "a"}, {}),
     ({"lastReading": None, "name": "a"}, {}),
-    ({"lastReading": -20.0, "name": "a"}, {"a": (-20.0, None)}),
+    ({"lastReading": -20.0, "name": "Ab"}, {"Ab": (-20.0, None)}),
     (None, {}),
     ({"lastReading": 5.5, "name": "B"}, {"Sensor B": (5.5, None)}),
     ({"lastReading": 5.5, "name": "T0"}, {"Sensor T0": (5.5, None)}),
     ({"lastReading": 5.5, "name": "C1"}, {"Sensor C1": (5.5, None)}),
-    ({"lastReading": 5.5, "name": "Bed"}, {"Bed": (5.5, None)}),
+    ({"lastReading": 5.5, "name": "Bed air"}, {"Bed air": (5.5, None)}),
+    ({"lastReading": 5.5, "name": "mcu"}, {"mcu": (5.5, None)}),
+    ({"lastReading": 5.5, "name": "heated bed"}, {"heated bed": (5.5, None)}),
+    ({"lastReading": 5.5, "name": "kühlung"}, {"kühlung": (5.5, None)}),
+    # OctoPrint's own members
+    *(
+        ({"lastReading": 5.5, "name": name}, {f"Sensor {name}": (5.5, None)})
+        for name in ("time", "bed", "Bed", "chamber", "tool0", "tool17", "b", "c", "__proto__")
+    ),
+    # no temperatures
+    ({"lastReading": 38.0, "name": "Box", "type": "dhthumidity"}, {}),
+    ({"lastReading": 1013.0, "name": "Air", "type": "bme-pressure"}, {}),
 ]
 
 
@@ -132,8 +143,8 @@ def test_sensor_of_a_heater_is_not_shown_twice():
 
 
 def test_same_names_are_told_apart():
-    model = heated(analog=[{"lastReading": 1.5, "name": "a"}] * 3)
-    assert list(temperatures(model).others) == ["a", "a 2", "a 3"]
+    model = heated(analog=[{"lastReading": 1.5, "name": "Ab"}] * 3)
+    assert list(temperatures(model).others) == ["Ab", "Ab 2", "Ab 3"]
 
 
 def test_no_model_has_no_temperatures():

@@ -96,7 +96,7 @@ NOT_FOUND = {
 
 @pytest.mark.parametrize(("line", "reply", "rest"), FOUND.values(), ids=FOUND)
 def test_reply_is_found_and_the_rest_kept(line, reply, rest):
-    assert find_reply(line) == (reply, rest)
+    assert find_reply(line) == (reply, rest, None)
 
 
 @pytest.mark.parametrize("line", NOT_FOUND.values(), ids=NOT_FOUND)
@@ -112,6 +112,70 @@ def test_line_of_64_kilobytes_is_found(around):
     found = find_reply(before + reply + after)
     assert found.reply == reply
     assert all(text in found.rest for text in around)
+
+
+KINDS = {
+    "live root": LIVE,
+    "list that goes on": '{"key":"tools","flags":"d99vno","result":[{"number":0}],"next":3}',
+    "S0": LEGACY,
+    "S2 to S4": STATUS,
+    "S2 with nan": NAN,
+    "S5": CONFIG,
+    "folder": FOLDER,
+    "file": FILE,
+    "no file": NO_FILE,
+    "piece of a thumbnail": PIECE,
+    "no buffers": NO_ROOM,
+    "start-up error": '{"key":"state","flags":"","result":{"startupError":{"file":"a","line":7}}}',
+}
+
+
+def places(text):
+    """Yield the reply with the member at each place of its outermost object, first to last."""
+    level, in_text, at = 0, False, [1]
+    for index, letter in enumerate(text):
+        if letter == '"' and text[index - 1] != "\\":
+            in_text = not in_text
+        elif not in_text:
+            level += (letter in "{[") - (letter in "}]")
+            if letter == "," and level == 1:
+                at.append(index + 1)
+    for index in at:
+        yield text[:index] + '"line":1234,' + text[index:]
+    yield text[:-1] + ',"line":1234}'
+
+
+@pytest.mark.parametrize("around", [("", "\n"), (UNDER_VOLTAGE, "\n"), ("", "ok\n")])
+@pytest.mark.parametrize("reply", KINDS.values(), ids=KINDS)
+def test_number_of_the_command_may_stand_anywhere(reply, around):
+    for numbered in places(reply):
+        found = find_reply(around[0] + numbered + around[1])
+        assert found is not None, numbered
+        assert (found.reply, found.number) == (reply, 1234), numbered
+        assert found.rest == (around[0] or around[1].strip())
+
+
+@pytest.mark.parametrize("reply", KINDS.values(), ids=KINDS)
+def test_other_members_of_that_name_are_no_number(reply):
+    found = find_reply(reply)
+    assert (found.reply, found.number) == (reply, None)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"line":12,',
+        '{"line":12,"key":"","flags"',
+        '{"line":' + "9" * 5000 + ',"key":""}',
+        '{"line":"x","key":""}',
+        '{"key":"","line":-1}',
+        '{"key":"","line":1.5,"result":1}',
+        '{"key":"","line":',
+    ],
+)
+def test_spoilt_number_raises_nothing(text):
+    find_reply(text)
+    find_reply(text + "ok\n")
 
 
 BOMBS = {

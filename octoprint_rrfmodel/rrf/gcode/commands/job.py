@@ -99,7 +99,10 @@ def filament(request: Request) -> Sequence[str]:
             raise missing("name")
         if "," in name or "/" in name or "\\" in name:
             raise bad("filament_name", parameter="name")
-    if tool is None:
+    if not machine.is_current:
+        # another tool may be under way, with another filament in it or none
+        tool = {}
+    elif tool is None:
         raise forbidden("no_tool_selected")
     drive = tool.get("filamentExtruder")
     if isinstance(drive, int) and drive < 0:

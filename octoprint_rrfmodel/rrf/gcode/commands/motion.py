@@ -49,6 +49,9 @@ def _check_place(machine: Machine, letter: str, place: float) -> None:
     limits = [axis.get(name) for name in ("min", "max", "machinePosition", "userPosition")]
     # off after M564 S0, and there are no limits where the axis isn't homed
     limited = mapping(machine.model.get("move")).get("limitAxes") is not False
+    if not machine.is_current:
+        # another tool or workplace, or an axis just homed, has other limits
+        return
     if not limited or axis.get("homed") is False or not all(map(is_number, limits)):
         return
     low, high, on_machine, shown = (float(limit or 0) for limit in limits)
@@ -68,7 +71,8 @@ def extrude(request: Request) -> Sequence[str]:
     else:
         extruders = tool.get("extruders")
         count = len(extruders) if isinstance(extruders, list) else len(several)
-        if len(several) != count and isinstance(amounts, tuple):
+        is_wrong = len(several) != count and machine.is_current
+        if is_wrong and isinstance(amounts, tuple):
             raise bad("wrong_count", parameter="amounts", count=str(count))
         if machine.is_cold(tool, retracts=all(amount <= 0 for amount in several)):
             raise forbidden("too_cold", tool=str(tool["number"]))
@@ -86,7 +90,8 @@ def spindle(request: Request) -> Sequence[str]:
     SetRpm), which may be far from what was asked for.
     """
     machine, values = request.machine, request.values
-    if mapping(machine.model.get("state")).get("machineMode") != CNC:
+    mode = mapping(machine.model.get("state")).get("machineMode")
+    if mode != CNC and machine.is_current:
         raise forbidden("not_cnc")
     place, rpm = values["spindle"], values["rpm"]
     spindles = array(machine.model.get("spindles"))

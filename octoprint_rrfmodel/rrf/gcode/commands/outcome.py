@@ -22,6 +22,8 @@ class Situation(NamedTuple):
     """Whether the firmware takes an answer to the message box that waits on this line."""
     box_is_answered: bool = False
     """Whether the model may still show a box that was just answered."""
+    line_is_held: bool = False
+    """Whether a box holds the line that nobody can answer over it: the host can't end its print."""
 
 
 class Refusal(NamedTuple):

@@ -21,6 +21,13 @@ def _prints(request: Request) -> bool:
     return streams or machine.prints or machine.status == "cancelling"
 
 
+def _could_end(request: Request) -> bool:
+    machine, situation = request.machine, request.situation
+    if situation.line_is_held:
+        return machine.prints or machine.status == "cancelling"
+    return _prints(request)
+
+
 def _has_a_print(request: Request) -> bool:
     situation = request.situation
     return situation.octoprint_prints or _prints(request) or request.machine.status == "paused"
@@ -37,6 +44,7 @@ WITHOUT_MACHINE = (
 """Nothing that needs the machine goes: what is told first comes first."""
 
 PRINTING = State("printing", _prints)
+PRINTING_FREELY = State("printing", _could_end)
 PRINTING_OR_PAUSED = State("printing_or_paused", _has_a_print)
 STREAMED = State("streamed", lambda request: request.situation.octoprint_prints)
 

@@ -10,7 +10,7 @@ from ..forms import SLOT_CODES, TOOL_STATES, Slots
 from . import box, heat, job, motion, parameters, system, things
 from .outcome import Request
 from .parameters import Parameter
-from .states import NOT_CONNECTED, NOT_RRF, PRINTING, PRINTING_OR_PAUSED, State
+from .states import NOT_CONNECTED, NOT_RRF, PRINTING, PRINTING_FREELY, PRINTING_OR_PAUSED, State
 
 MOST_MILLIMETRES = 10_000.0
 MOST_SPEED = 100_000.0
@@ -249,6 +249,11 @@ COMMANDS = (
         needs_machine=False,
     ),
     Command(
-        "recover", (), (PRINTING,), system.recover, "3.5 GCodes2.cpp:4718", needs_machine=False
+        "recover",
+        (),
+        (PRINTING_FREELY,),
+        system.recover,
+        "3.5 GCodes2.cpp:4718",
+        needs_machine=False,
     ),
 )

@@ -1,0 +1,39 @@
+"""The parts of this floor, made together."""
+
+from typing import NamedTuple
+
+from .message_boxes import MessageBoxes
+from .print_guard import PrintGuard
+from .recovery import Recovery
+from .warning_list import WarningList
+
+
+class Guards(NamedTuple):
+    """What looks after the machine and OctoPrint's print."""
+
+    boxes: MessageBoxes
+    guard: PrintGuard
+    recovery: Recovery
+    warnings: WarningList
+
+
+def make_guards(host, link, known, *, notifications, problems, clock):
+    """Return the parts; ``host`` is OctoPrint, ``known`` what is known of the machine."""
+    model = known.model
+    boxes = MessageBoxes(model, clock, link=link, tell=notifications.tell)
+    guard = PrintGuard(
+        host.printer,
+        link.has_a_print,
+        model,
+        is_on=host.is_set,
+        tell=notifications.tell,
+    )
+    recovery = Recovery(
+        host.printer,
+        link,
+        known.machine,
+        notifications=notifications,
+        is_held=boxes.holds_the_line,
+    )
+    warnings = WarningList(model, link, guard, recovery=recovery, boxes=boxes, problems=problems)
+    return Guards(boxes, guard, recovery, warnings)

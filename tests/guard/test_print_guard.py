@@ -1,0 +1,183 @@
+"""Every fault of the guard's table on every firmware, by whatever way that firmware tells it."""
+
+from types import SimpleNamespace
+
+import pytest
+
+pytest.importorskip("octoprint")
+
+from octoprint_rrfmodel.guard.print_guard import PrintGuard
+from octoprint_rrfmodel.rrf.follow.follower import Taken
+from octoprint_rrfmodel.rrf.views.warnings import GUARDS
+from octoprint_rrfmodel.rrf.wire.m408 import M408Model
+
+from ..rrf.simulated import Simulated
+
+M408 = "2.05.1"
+VERSIONS = ("3.3", "3.4", "3.5.3", "3.6.0", M408)
+
+
+class Printing:
+    """A guard and OctoPrint's print of one of its own files."""
+
+    def __init__(self, off=()):
+        self.pauses = 0
+        self.told = []
+        self.model = {"state": {"status": "idle"}}
+        printer = SimpleNamespace(
+            is_pausing=lambda: False,
+            is_cancelling=lambda: False,
+            is_finishing=lambda: False,
+            is_printing=lambda: not self.pauses,
+            is_paused=lambda: bool(self.pauses),
+            pause_print=self.pause,
+        )
+        self.guard = PrintGuard(
+            lambda: printer,
+            lambda: True,
+            lambda: self.model,
+            is_on=lambda group, code: code not in off,
+            tell=lambda code, detail: self.told.append((code, detail)),
+        )
+
+    def pause(self):
+        self.pauses += 1
+        self.guard.paused()
+
+    def take(self, model):
+        self.model = model
+        self.guard.replied(Taken({}, False), 0.0)
+        return self
+
+    def say(self, *lines):
+        for line in lines:
+            self.guard.line(line)
+        return self
+
+    @property
+    def causes(self):
+        pause = self.guard.pause()
+        return [] if pause is None else [cause.name for cause in pause.causes]
+
+
+def board(firmware):
+    made = Simulated("cartesian", firmware)
+    made.run("M140 S60", "M104 T0 S200", seconds=1)
+    return made
+
+
+def struck(firmware, fault):
+    """Return the print after a fault of the board, with all that the board then tells."""
+    simulated = board(firmware)
+    printing = Printing().take(simulated.model())
+    assert printing.pauses == 0
+    simulated.board.transmit()
+    simulated.board.inject(fault)
+    simulated.run()
+    lines = simulated.board.transmit().decode("utf-8", "replace").splitlines()
+    return printing.say(*lines).take(simulated.model())
+
+
+FAULTS = {
+    "heater_fault": ("heater_fault:1", "heater_fault_1"),
+    "driver_error": ("driver_error:2", "driver_error_0_2"),
+    "off": ("vin_off", "off"),
+    "halted": ("halted", "halted"),
+}
+
+
+@pytest.mark.parametrize("firmware", [version for version in VERSIONS if version != M408])
+@pytest.mark.parametrize("fault", FAULTS)
+def test_fault_pauses_whatever_tells_it(firmware, fault):
+    name, cause = FAULTS[fault]
+    printing = struck(firmware, name)
+    assert printing.pauses == 1
+    assert cause in printing.causes
+
+
+TOLD = {
+    "3.3": "Error: Driver 2 error: phase A short-to-ground",
+    "3.3, several": "Error: over temperature shutdown on drivers 2",
+    "3.4": "Driver 2 error: over temperature shutdown",
+    "3.5, an expansion board": "Driver 0.2 error: over temperature shutdown",
+}
+
+
+@pytest.mark.parametrize("text", TOLD.values(), ids=TOLD)
+def test_driver_error_in_words_alone_pauses(text):
+    printing = Printing().say("- Event notification -", text)
+    assert printing.causes == ["driver_error_0_2"]
+    # nobody can tell when it is over: a person has to look
+    assert printing.guard.pause().what_next == "resume"
+    assert printing.guard.refusal() is None
+    assert len(printing.told) == 1
+
+
+@pytest.mark.parametrize("text", TOLD.values(), ids=TOLD)
+def test_driver_error_in_a_box_alone_pauses(text):
+    box = {"mode": 1, "seq": 3, "title": "Event notification", "message": text}
+    printing = Printing().take({"state": {"status": "busy", "messageBox": box}})
+    assert printing.causes == ["driver_error_0_2"]
+
+
+@pytest.mark.parametrize("firmware", VERSIONS)
+def test_filament_error_in_words_alone_pauses(firmware):
+    text = "Filament error on extruder 0: noFilament"
+    assert Printing().say("- Event notification -", text).causes == ["filament_error_0"]
+    other = {"state": {"currentTool": 0}, "tools": [{"number": 0, "extruders": [1]}]}
+    assert Printing().take(other).say(text).pauses == 0
+
+
+M408_FAULTS = {
+    "heater_fault": ({"temps": {"current": [20, 20], "state": [2, 3]}}, "heater_fault_1"),
+    "off": ({"status": "O"}, "off"),
+    "halted": ({"status": "H"}, "halted"),
+}
+
+
+@pytest.mark.parametrize("fault", M408_FAULTS)
+def test_fault_by_m408_pauses(fault):
+    members, cause = M408_FAULTS[fault]
+    model = M408Model()
+    fine = {"status": "I", "temps": {"current": [20, 20], "state": [2, 2]}}
+    printing = Printing().take(model.take(fine))
+    assert printing.pauses == 0
+    assert printing.take(model.take({**fine, **members})).causes == [cause]
+
+
+def test_fault_before_3_in_words_pauses():
+    text = "Error: Heating fault on heater 1, temperature excursion exceeded 10.0C"
+    assert Printing().say(text).causes == ["heater_fault_1"]
+
+
+@pytest.mark.parametrize("code", ["heater_fault", "driver_error", "filament_error"])
+def test_what_is_not_watched_for_pauses_nothing(code):
+    printing = Printing(off=(code,))
+    printing.say("Heater 1 fault: x") if code == "heater_fault" else None
+    printing.say("Driver 1 error: x") if code == "driver_error" else None
+    printing.say("Filament error on extruder 0: x") if code == "filament_error" else None
+    assert printing.pauses == 0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Error: M569: Driver 10 does not exist",
+        "echo: Driver 1 error",
+        "Heater 1 is at 20.0",
+        "Warning: Driver 0 stall",
+        "ok T:20.0 /0.0",
+    ],
+)
+def test_other_words_pause_nothing(text):
+    assert Printing().say(text).pauses == 0
+
+
+def test_reset_pauses():
+    printing = Printing()
+    printing.guard.reset()
+    assert printing.causes == ["reset"]
+
+
+def test_each_fault_of_the_table_is_here():
+    assert {*FAULTS, "filament_error", "reset"} == set(GUARDS)
