@@ -13,6 +13,7 @@ from .device.boxes import MessageBoxes
 from .device.card import Card
 from .device.emergency import Emergency
 from .device.events import Events
+from .device.extrusion import ExtrusionWarnings
 from .device.incidents import DriveFaults, HeaterFault, UnaskedBox
 from .device.job import Job
 from .device.live_members import LiveMembers
@@ -42,6 +43,7 @@ from .gcodes.queries.m408_values import Names, Values
 from .gcodes.queries.object_model import ObjectModelCode
 from .gcodes.queries.old_status import OldStatus
 from .gcodes.queries.reports import Reports
+from .gcodes.queries.settings import Settings
 from .gcodes.spindles import Spindles
 from .gcodes.storage.files import Files
 from .gcodes.storage.information import Information
@@ -54,6 +56,7 @@ from .interpreter.decoder import Decoder
 from .interpreter.execution import Interpreter
 from .interpreter.macros import Macros
 from .interpreter.table import GCodes
+from .interpreter.urgent import Urgent
 from .line.channel import Channel
 from .line.output import Output
 from .line.plug import Plug
@@ -107,6 +110,7 @@ class Assembly:
         self.card = Card()
         self.activity = Activity()
         self.motion = Motion(model, clock)
+        self.warnings = ExtrusionWarnings(clock, output)
         self.power = Power(model, self.motion)
         self.thermal = Thermal(model, self.power, clock)
         self.boxes = MessageBoxes(model, clock)
@@ -160,7 +164,16 @@ class Assembly:
             firmware=self.firmware,
             clock=self.clock,
             output=self.output,
+            job=self.job,
         )
+        if self.firmware.looks_at_usb:
+            urgent = Urgent(
+                gcodes=self.gcodes,
+                decoder=self.decoder,
+                emergency=self.emergency,
+                usb=self.channels["USB"],
+            )
+            self.usb_input.takes = urgent.takes
         self.macros = Macros(
             activity=self.activity,
             card=self.card,
@@ -185,7 +198,14 @@ class Assembly:
             Accepted(),
             macros,
             MetaCommands(model, self.decoder, output),
-            Moves(model=model, motion=motion, thermal=thermal, job=job, clock=clock, output=output),
+            Moves(
+                model=model,
+                motion=motion,
+                thermal=thermal,
+                job=job,
+                clock=clock,
+                warnings=self.warnings,
+            ),
             Coordinates(model, motion),
             Homing(model=model, motion=motion, clock=clock, macros=macros),
             Factors(model, motion),
@@ -195,7 +215,7 @@ class Assembly:
                 motion=motion,
                 thermal=thermal,
                 clock=clock,
-                activity=self.activity,
+                macros=macros,
                 firmware=firmware,
             ),
             Filaments(model=model, motion=motion, card=card, macros=macros),
@@ -207,7 +227,7 @@ class Assembly:
             BoxCodes(
                 clock=clock, firmware=firmware, boxes=self.boxes, faults=faults, output=output
             ),
-            Reports(model=model, live=live, motion=motion, thermal=thermal),
+            Reports(model=model, clock=clock, live=live, motion=motion, thermal=thermal),
             Identity(model=model, clock=clock, firmware=firmware, mainboard=self.mainboard),
             ObjectModelCode(
                 model=model,
@@ -216,11 +236,12 @@ class Assembly:
                 firmware=firmware,
                 faults=faults,
             ),
+            Settings(model=model, motion=motion, thermal=thermal, card=card, firmware=firmware),
             OldStatus(live, values),
             Listing(card, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
             Information(model=model, card=card, job=job, model_text=self.model_text),
-            Prints(job=job, card=card, motion=motion, clock=clock, macros=macros, live=live),
+            Prints(job=job, card=card, motion=motion, macros=macros, live=live, output=output),
             System(
                 model=model,
                 clock=clock,
@@ -240,6 +261,7 @@ class Assembly:
             self.object_model.restart,
             self.activity.restart,
             self.motion.restart,
+            self.warnings.restart,
             self.power.restart,
             self.thermal.restart,
             self.boxes.restart,

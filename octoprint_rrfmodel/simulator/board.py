@@ -200,6 +200,7 @@ class Board(Assembly):
             or self.motion.is_moving
             or self.job.is_printing
             or self.boxes.current
+            or self.warnings.is_waiting
             or self.faults.names()
             or not all(channel.is_idle for channel in self._used_channels)
         )
@@ -212,7 +213,16 @@ class Board(Assembly):
         self.job.step(seconds)
         self.boxes.expire()
         self._pump()
-        self.temperature_lines.tick()
+
+    def _is_locked(self) -> bool:
+        """Return whether another channel than the file's waits for standstill: no moves until then.
+
+        RRF 3.5 GCodes.cpp, LockMovementAndWaitForStandstill.
+        """
+        return any(
+            channel.wait == self.motion.has_stopped and channel.name != "File"
+            for channel in self._used_channels
+        )
 
     def _pump(self) -> None:
         """Let every channel do what it can do now."""
@@ -220,12 +230,21 @@ class Board(Assembly):
         self.clock.run_due()
         is_stalled = self.faults.is_on("stall")
         for channel in self._used_channels:
-            if not (is_stalled and channel.name == "USB"):
-                self.interpreter.pump(channel)
+            if is_stalled and channel.name == "USB":
+                continue
+            if (
+                channel.name == "File"
+                and channel.wait == self.motion.has_room
+                and self._is_locked()
+            ):
+                continue
+            self.interpreter.pump(channel)
         file_channel = self.channels["File"]
-        while self.job.is_running:
+        while self.job.is_running and not self._is_locked():
             position = self.job.position
             self.job.feed()
             self.interpreter.pump(file_channel)
             if self.job.position == position or not file_channel.is_idle:
                 break
+        self.warnings.tick()
+        self.temperature_lines.tick()

@@ -140,6 +140,7 @@ FAULTS: dict[str, Fault] = {
     ),
     "sbc": Fault("a single-board computer answers network and volumes"),
     "baud": Fault("output at the speed of a line with n baud (115200)", "115200"),
+    "unread": Fault("replies that the host doesn't fetch for s seconds are lost for good (2)", "2"),
     "usb_box_stuck": Fault("a blocking M291 from USB stops that channel for good (3.5 and 3.6.0)"),
 }
 """Name → fault, in the order of ``--list``."""

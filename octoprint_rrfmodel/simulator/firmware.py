@@ -57,10 +57,16 @@ class Firmware:
     """Status ``cancelling`` (3.4 and later)."""
     box_modes: int = 7
     """Highest M291 mode; 4 to 7 came with 3.5."""
-    usb_box_opens: bool = False
+    usb_box_opens: bool = True
     """Whether M291 from USB makes a box in the model that M292 from USB can close (#1141)."""
     exponent: bool = False
     """Whether numbers may come in exponential form. No version read does it."""
+    names_line: bool = True
+    """3.6.2 and later put ``"line":n`` into JSON replies to numbered commands (RRF #1178)."""
+    looks_at_usb: bool = True
+    """3.6.3 and later act on M112, M108 and a bare M122 before they are queued."""
+    has_duet2: bool = True
+    """Whether it runs on a Duet 2 (not 3.7 and later)."""
     needs_duet2: bool = False
     """Whether only a Duet 2 runs it."""
 
@@ -68,7 +74,20 @@ class Firmware:
         return self.release >= release
 
 
-_V36 = Firmware("3.6.0", (3, 6, 0), "2025-04-24", " 11:38:13")
+# the dates of 3.6.1 and later stand for those of real builds
+_V37 = Firmware("3.7.0", (3, 7, 0), "2026-10-05", " 10:00:00", has_duet2=False)
+_V364 = replace(_V37, version="3.6.4", release=(3, 6, 4), date="2026-07-20", has_duet2=True)
+_V363 = replace(_V364, version="3.6.3", release=(3, 6, 3), date="2026-04-13")
+_V362 = replace(_V363, version="3.6.2", release=(3, 6, 2), date="2025-12-08", looks_at_usb=False)
+_V361 = replace(_V362, version="3.6.1", release=(3, 6, 1), date="2025-09-08", names_line=False)
+_V36 = replace(
+    _V361,
+    version="3.6.0",
+    release=(3, 6, 0),
+    date="2025-04-24",
+    time=" 11:38:13",
+    usb_box_opens=False,
+)
 _V353 = replace(_V36, version="3.5.3", release=(3, 5, 3), date="2024-10-01", time=" 14:21:40")
 _V351 = replace(
     _V353,
@@ -126,6 +145,11 @@ VERSIONS: dict[str, Firmware] = {
     "3.5.1": _V351,
     "3.5.3": _V353,
     "3.6": _V36,
+    "3.6.1": _V361,
+    "3.6.2": _V362,
+    "3.6.3": _V363,
+    "3.6.4": _V364,
+    "3.7": _V37,
 }
 """The versions that can be asked for by name."""
 
@@ -136,6 +160,7 @@ ALIASES = {
     "3.4.6": "3.4",
     "3.5": "3.5.3",
     "3.6.0": "3.6",
+    "3.7.0": "3.7",
 }
 
 

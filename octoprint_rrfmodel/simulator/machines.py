@@ -59,11 +59,11 @@ def xyz(x: float, y: float, z: float) -> list[dict[str, Any]]:
 
 
 def bed(sensor: int, limit: float = 125.0) -> dict[str, Any]:
-    return parts.heater(sensor, limit, heating_rate=0.45, cooling_rate=0.21, dead_time=2.8)
+    return parts.heater(sensor, limit, heating_rate=0.76, cooling_rate=0.4, dead_time=2.8)
 
 
 def hotend(sensor: int, limit: float = 290.0) -> dict[str, Any]:
-    return parts.heater(sensor, limit, heating_rate=2.2, cooling_rate=0.55, dead_time=5.1)
+    return parts.heater(sensor, limit, heating_rate=4.545, cooling_rate=0.91, dead_time=2.0)
 
 
 VARIABLES = {
@@ -267,5 +267,9 @@ def machine_called(name: str) -> Machine:
 
 
 def mainboard(machine: Machine, firmware: Firmware) -> Mainboard:
-    """Return the board; firmware for a Duet 2 only makes it one."""
-    return DUET2_WIFI if firmware.needs_duet2 else machine.board
+    """Return the board: a Duet 2 for firmware for nothing else, none for firmware without it."""
+    if firmware.needs_duet2:
+        return DUET2_WIFI
+    if machine.board.is_duet2 and not firmware.has_duet2:
+        return MINI5PLUS
+    return machine.board

@@ -12,7 +12,8 @@ from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
 from octoprint_rrfmodel.simulator.machines import MACHINES
 from octoprint_rrfmodel.simulator.model.om import number
-from octoprint_rrfmodel.simulator.text.command import SyntaxProblem, commands_of
+from octoprint_rrfmodel.simulator.text.command import SyntaxProblem
+from octoprint_rrfmodel.simulator.text.cutting import commands_of
 from octoprint_rrfmodel.simulator.text.serial_line import crc16, parse_line, xor
 
 EXAMPLES = settings(max_examples=60, deadline=None)
@@ -42,6 +43,9 @@ def driven(board, time, data):
         time[0] += 60
         said += board.transmit()
     return said
+
+
+NO_LINE_END = str.maketrans("\n\r\x00", "   ")
 
 
 @EXAMPLES
@@ -105,7 +109,7 @@ def test_any_checksummed_line_comes_through(text):
 @given(st.text(max_size=100), st.text(max_size=20))
 def test_any_key_and_flags(key, flags):
     board = Board(clock=lambda: 0.0)
-    line = f'M409 K"{key}" F"{flags}"'.replace("\n", " ").replace("\r", " ")
+    line = f'M409 K"{key}" F"{flags}"'.translate(NO_LINE_END)
     board.receive(line.encode("utf-8", "replace") + b"\n")
     said = board.transmit().decode("utf-8")
     if said.startswith('{"key"'):

@@ -40,7 +40,7 @@ def test_list_with_sizes(bench):
     assert found["dir"] == "0:/gcodes/Spare parts/"
     assert "err" not in found
     folder, file = found["files"]
-    assert folder == {"type": "d", "name": "ver 2", "date": "2024-10-01T12:00:00"}
+    assert folder == {"type": "d", "name": "ver 2", "size": 0, "date": "2024-10-01T12:00:00"}
     assert (file["type"], file["name"]) == ("f", "clip (L).gcode")
     assert file["size"] > 500
 
@@ -113,14 +113,15 @@ def test_select(bench):
 @pytest.mark.parametrize("line", ["M23 nothing.gcode", 'M32 "nothing.gcode"'])
 def test_select_nothing(bench, line):
     name = line.split()[0]
-    expected = f'Error: {name}: GCode file "nothing.gcode" not found\nok\n'
+    expected = f'Error: {name}: GCode file "nothing.gcode" not found\n\nok\n'
     assert bench().send(line) == expected
 
 
 def test_names_compare_without_case(bench):
     board = bench()
     assert board.send("M23 SQUARE.GCODE") == "File opened\nFile selected\nok\n"
-    assert board.ask("job.file.fileName") == "0:/gcodes/square.gcode"
+    assert board.ask("job.lastFileName") == "0:/gcodes/square.gcode"
+    assert board.ask("job.file.fileName") is None
 
 
 def test_information(bench):
@@ -130,7 +131,7 @@ def test_information(bench):
     assert found.pop("thumbnails")[0]["format"] == "png"
     assert found == {
         "err": 0,
-        "fileName": "0:/gcodes/square.gcode",
+        "fileName": "square.gcode",
         "lastModified": "2024-11-04T20:21:00",
         "height": 8.0,
         "layerHeight": 0.2,
@@ -142,7 +143,7 @@ def test_information(bench):
 
 
 def test_information_of_nothing(bench):
-    assert bench().send('M36 "no.gcode"') == '{"err":1,"fileName":"no.gcode"}\n\nok\n'
+    assert bench().send('M36 "no.gcode"') == '{"err":1,"fileName":"no.gcode"}\nok\n'
 
 
 def test_information_about_the_print(bench):
@@ -173,8 +174,9 @@ def test_thumbnail_of_nothing(bench):
 
 
 def test_card_information(bench):
-    assert bench().send("M39").startswith("SD card in slot 0: capacity 15.9Gb")
-    assert listing(bench(), "M39 S2")["SDinfo"]["present"] == 1
+    assert bench().send("M39").startswith("SD card in slot 0: capacity 15.93GB")
+    said = bench().send("M39 S2")
+    assert json.loads(said.removesuffix("\nok\n"))["SDinfo"]["present"] == 1
 
 
 def test_mounting_is_in_the_model(bench):
@@ -184,7 +186,7 @@ def test_mounting_is_in_the_model(bench):
     assert board.ask("seqs.volChanges") == [1, 0]
     board.send("M21")
     assert board.ask("volumes[0].mounted") is True
-    assert board.send("M21 P1").startswith("Error: M21: Cannot initialise SD card 1")
+    assert board.send("M21 P1").startswith("Error: M21: No SD card present")
 
 
 PATHS = {

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from octoprint_rrfmodel.simulator.text.command import (
-    SyntaxProblem,
-    commands_of,
-    without_comment,
-)
+from octoprint_rrfmodel.simulator.text.command import SyntaxProblem
+from octoprint_rrfmodel.simulator.text.cutting import bad_command, commands_of, without_comment
 
 
 def commands(line, **options):
@@ -40,11 +37,16 @@ def test_commands_of_a_line(line, names):
     assert [command.name for command in commands(line)] == names
 
 
-@pytest.mark.parametrize("line", ["foo", "12", "X10", "{", "*"])
+@pytest.mark.parametrize("line", ["foo", "12", "X10", "{", "*", "M 105", "if true", "abort"])
 def test_bad_command(line):
-    with pytest.raises(SyntaxProblem) as problem:
-        commands(line)
-    assert problem.value.text == f"Bad command: {line}"
+    (command,) = commands(line)
+    assert command.letter == "bad"
+    assert bad_command(command.text) == f"Bad command: {line}"
+
+
+def test_conditions_are_commands_in_a_file():
+    (command,) = commands("if true", in_file=True)
+    assert command.letter == "meta"
 
 
 def test_coordinates_alone_go_on_with_the_last_move_on_a_cnc_machine():

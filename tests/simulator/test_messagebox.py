@@ -105,15 +105,15 @@ def test_ok_lets_the_macro_go_on(bench):
 
 
 ANSWERS = {
-    "choice": ('S4 K{"a","b"}', "M292 R1 S1", True, 1),
-    "choice out of range": ('S4 K{"a","b"}', "M292 R2 S1", False, None),
+    "choice": ('S4 K{"a","b"}', "M292 R{1} S1", True, 1),
+    "choice out of range": ('S4 K{"a","b"}', "M292 R{2} S1", False, None),
     "integer": ("S5 L1 H10 F3", "M292 R{7} S1", True, 7),
     "integer too large": ("S5 L1 H10", "M292 R11 S1", False, None),
-    "float": ("S6 L0.5 H2.5", "M292 R1.25 S1", True, 1.25),
-    "text": ("S7 L1 H5", 'M292 R"abc" S1', True, "abc"),
+    "float": ("S6 L0.5 H2.5", "M292 R{1.25} S1", True, 1.25),
+    "text": ("S7 L1 H5", 'M292 R{"abc"} S1', True, "abc"),
     "text in braces": ("S7 H30", 'M292 P0 R{"it\'\'s ""}"" M5"} S1', True, 'it\'s "}" M5'),
-    "text too long": ("S7 L1 H5", 'M292 R"abcdef" S1', False, None),
-    "number for a text": ("S7", "M292 R5 S1", False, None),
+    "text too long": ("S7 L1 H5", 'M292 R{"abcdef"} S1', False, None),
+    "number for a text": ("S7", "M292 R{5} S1", False, None),
     "no value": ("S5", "M292 S1", False, None),
     "another box": ("S2", "M292 S9", False, None),
     "cancel": ("S5 J1", "M292 P1 S1", True, False),
@@ -135,7 +135,7 @@ def test_choices_and_limits_are_in_the_model(bench):
     board = bench()
     board.board.execute('M291 P"?" S4 K{"a","b"} F1')
     assert (box(board)["choices"], box(board)["default"]) == (["a", "b"], 1)
-    board.send("M292 R0 S1")
+    board.send("M292 R{0} S1")
     board.board.execute('M291 P"?" S5 L1 H10 F3')
     assert [box(board)[name] for name in ("min", "max", "default")] == [1, 10, 3]
 

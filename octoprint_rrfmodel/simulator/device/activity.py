@@ -27,6 +27,8 @@ class Activity:
     def running_macro(self, channel: Channel) -> Iterator[None]:
         """While this is entered the board is busy, and the channel in a macro."""
         self._macros += 1
+        # a macro's lines take the place of the one that it was called on (seen in firmware)
+        channel.pending.clear()
         channel.macros += 1
         try:
             yield

@@ -29,6 +29,8 @@ class MessageBoxes:
         self._open: list[dict[str, Any]] = []
         self._deadlines: dict[int, float] = {}
         self._seq = 0
+        self.unanswerable = 0
+        """Blocking boxes of USB that aren't in the model and stay for good."""
         self.answers: list[Any] = []
         """What M292 said so far: ``None`` for OK, ``False`` for cancel, or the value."""
 
@@ -38,7 +40,7 @@ class MessageBoxes:
         title: str,
         mode: int,
         timeout: float = 0.0,
-        controls: int = 0,
+        controls: int | None = None,
         cancel: bool = False,
         **limits: Any,
     ) -> int:
@@ -79,7 +81,7 @@ class MessageBoxes:
     @property
     def is_blocking(self) -> bool:
         """Whether a box that waits for an answer is open."""
-        return any(box["mode"] > CLOSE_MODE for box in self._open)
+        return self.unanswerable > 0 or any(box["mode"] > CLOSE_MODE for box in self._open)
 
     def close(self, seq: int) -> None:
         self._open = [box for box in self._open if box["seq"] != seq]

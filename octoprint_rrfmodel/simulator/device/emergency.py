@@ -38,6 +38,7 @@ class Emergency:
         self._thermal.all_off()
         self._motion.stop()
         self._job.forget()
+        self._model.data["state"]["currentTool"] = -1
         for channel in self._channels.values():
             channel.abandon(keep_input=True)
         self._model.bump("job", "state")

@@ -17,6 +17,9 @@ _SIMULATED = re.compile(r"^; Simulated print time: (\d+)", re.MULTILINE)
 _THUMBNAIL = re.compile(r"; thumbnail(?:_(\w+))? begin (\d+)x(\d+) (\d+)\r?\n")
 """A thumbnail's first line; groups: format, width, height, length of the base64 text."""
 
+SMALLEST, LARGEST = 16, 500
+"""Width and height of a thumbnail that the firmware takes note of (3.5 FileInfoParser.cpp)."""
+
 _SECONDS = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 _FORMATS = {None: "png", "QOI": "qoi", "JPG": "jpeg"}
 
@@ -37,6 +40,7 @@ def _thumbnails(content: bytes) -> list[dict[str, Any]]:
             "width": int(match.group(2)),
         }
         for match in _THUMBNAIL.finditer(text)
+        if all(SMALLEST <= int(match.group(side)) <= LARGEST for side in (2, 3))
     ]
 
 

@@ -14,6 +14,7 @@ from ..hardware.blank import no_job
 from ..line.channel import Channel
 from ..line.output import Output
 from ..model.tree import ObjectModel
+from .build_objects import BuildObjects
 from .card import Card
 from .fileinfo import file_info
 from .motion import Motion
@@ -50,6 +51,7 @@ class Job:
         self._motion = motion
         self._channel = channel
         self._output = output
+        self.objects = BuildObjects(model)
         self.restart()
 
     def restart(self) -> None:
@@ -63,9 +65,8 @@ class Job:
         self._pause_seconds = 0.0
         self._warm_up: float | None = None
         self._layer_started = 0.0
-        self._objects: list[dict[str, Any]] = []
-        self.current_object = -1
-        self._ended_by: str | None = None
+        self.objects.restart()
+        self._is_ending = False
 
     @property
     def is_printing(self) -> bool:
@@ -77,14 +78,22 @@ class Job:
         return self.state == PRINTING
 
     @property
+    def line_number(self) -> int:
+        """Number of the line that has been read last, from 1."""
+        return self._next
+
+    @property
     def data(self) -> dict[str, Any]:
         job: dict[str, Any] = self._model.data["job"]
         return job
 
     def forget(self) -> None:
-        """Drop the file as if there had been none."""
+        """Drop the print; the file's information stays (seen in firmware)."""
+        file, name = self.data.get("file"), self.path or self.data.get("lastFileName")
         self.restart()
         self._model.data["job"] = self._model.members_of(no_job(), "job")
+        if file is not None:
+            self.data.update(file={**file, "fileName": None}, lastFileName=name)
 
     def has_run_all(self) -> bool:
         """Return whether the lines read so far are through, as a condition to wait for."""
@@ -100,13 +109,16 @@ class Job:
         self._lines = content.splitlines(keepends=True)
         self._next = self.position = 0
         info = file_info(path, content, self._card.date(path))
-        self.data["file"] = self._model.members_of(info, "job.file")
-        self.data["filePosition"] = 0
+        info["fileName"] = None
+        self.data.update(
+            file=self._model.members_of(info, "job.file"), filePosition=0, lastFileName=path
+        )
+        self._last(0, 0)
         self._model.bump("job")
 
     def seek(self, position: int) -> None:
         """Go on at that byte of the file (M26)."""
-        passed = 0
+        passed, self._next = 0, len(self._lines)
         for index, line in enumerate(self._lines):
             if passed >= position:
                 self._next = index
@@ -119,8 +131,10 @@ class Job:
         self.state, self.is_simulation = PRINTING, simulate
         self.duration = self._pause_seconds = 0.0
         self._warm_up, self._layer_started = None, 0.0
-        self._objects, self.current_object = [], -1
+        self.objects.restart()
         job = self.data
+        job["file"]["fileName"] = self.path
+        self._last(None, None)
         job.update(
             duration=0,
             layer=None,
@@ -129,20 +143,19 @@ class Job:
             rawExtrusion=0.0,
             warmUpDuration=0,
             lastFileName=None,
-            build=self._build(),
+            build=self.objects.build(),
         )
         if "firstLayerDuration" in job:
             job["firstLayerDuration"] = None
         self._model.volume_open(True)
         self._model.bump("job")
 
-    def _build(self) -> dict[str, Any]:
-        return {
-            "currentObject": self.current_object,
-            "m486Names": bool(self._objects),
-            "m486Numbers": False,
-            "objects": self._objects,
-        }
+    def _last(self, duration: int | None, warm_up: int | None) -> None:
+        """Show the times of the last print; there are none while one is under way."""
+        job = self.data
+        job["lastDuration"] = duration
+        if "lastWarmUpDuration" in job:
+            job["lastWarmUpDuration"] = warm_up
 
     def feed(self) -> None:
         """Give the File channel its next line, and end the job after the last one."""
@@ -151,7 +164,8 @@ class Job:
         if self.is_simulation:
             self._go_through()
             return
-        if self._next >= len(self._lines):
+        if self._is_ending or self._next >= len(self._lines):
+            self._is_ending = True
             if not self._motion.is_moving:
                 self.finish(cancelled=False)
             return
@@ -211,7 +225,7 @@ class Job:
         if job.get("layer"):
             job["layerTime"] = self.duration - self._layer_started
         job["filePosition"] = self.position
-        job["build"] = self._build()
+        job["build"] = self.objects.build()
         self._times_left(job)
 
     def _times_left(self, job: dict[str, Any]) -> None:
@@ -233,51 +247,51 @@ class Job:
     def finish(self, cancelled: bool) -> None:
         """End the job and tell everybody."""
         job = self.data
-        hours, minutes = divmod(int(self.duration + self._pause_seconds) // 60, 60)
+        hours, minutes = divmod(int(self.duration) // 60, 60)
         name, simulated = self.path or "", self.is_simulation
-        last = int(self.duration)
-        warm_up = int(self._warm_up or 0)
+        last = 0 if cancelled else int(self.duration)
+        warm_up = 0 if cancelled else int(self._warm_up or 0)
+        info = {**(job.get("file") or {}), "fileName": None}
         self._model.data["job"] = self._model.members_of(no_job(), "job")
-        job = self.data
-        job["lastFileName"], job["lastDuration"] = name, last
-        if "lastWarmUpDuration" in job:
-            job["lastWarmUpDuration"] = warm_up
+        self.data.update(lastFileName=name, file=info)
+        self._last(last, warm_up)
         self.state = self.path = None
-        self._lines = []
+        self._lines, self._is_ending = [], False
         self._channel.abandon()
         self._model.volume_open(False)
         self._model.bump("job")
         if simulated and not cancelled:
             self._output.text(f"File {name} will print in {hours}h {minutes}m plus heating time\n")
             return
-        if not cancelled:
-            self._output.text("Done printing file\n")
+        # cancelled or not (seen in firmware)
+        self._output.text("Done printing file\n")
         verb = "Cancelled" if cancelled else "Finished"
         self._output.text(f"{verb} printing file {name}, print time was {hours}h {minutes}m\n")
+
+    def end_after_this(self) -> None:
+        """End the job behind the command that runs (M0 in the file)."""
+        self._is_ending = True
+
+    @property
+    def can_be_interrupted(self) -> bool:
+        """Whether what the file's command waits for is no macro."""
+        return not self._channel.is_in_macro
+
+    def interrupt(self) -> None:
+        """Stop reading, and leave the moves not begun and a command that waits for later."""
+        if self._channel.running is not None or self._channel.pending or self._channel.lines:
+            self._rewind(self._next - 1)
+            self._channel.abandon()
+        dropped = self._motion.drop_waiting()
+        if dropped is not None:
+            self._rewind(dropped)
+
+    def _rewind(self, index: int) -> None:
+        self.position -= sum(len(line) for line in self._lines[index : self._next])
+        self._next = index
 
     def pause_for_fault(self) -> None:
         """Pause at once, as the event system does."""
         if self.state == PRINTING:
             self.state = PAUSED
-            self._channel.lines.clear()
-
-    def name_object(self, number: int, name: str | None = None) -> None:
-        """Make M486 object ``number`` the current one; -1 for none."""
-        while number >= len(self._objects):
-            index = len(self._objects)
-            self._objects.append(
-                {"cancelled": False, "name": f"Object {index}", "x": [80, 120], "y": [80, 120]}
-            )
-            self._model.bump("job")
-        if name is not None and number >= 0:
-            self._objects[number]["name"] = name
-            self._model.bump("job")
-        self.current_object = number
-
-    def cancel_object(self, number: int, cancelled: bool) -> bool:
-        """Mark an object; return whether there is such a one."""
-        if not 0 <= number < len(self._objects):
-            return False
-        self._objects[number]["cancelled"] = cancelled
-        self._model.bump("job")
-        return True
+            self.interrupt()

@@ -46,6 +46,7 @@ class LiveMembers:
         if "msUpTime" in state:
             state["msUpTime"] = int(up_time * 1000) % 1000
         state["time"] = self._clock.date_time()
+        self._show_endstops()
         for gcode_input in self._model.data.get("inputs") or ():
             if gcode_input is None:
                 continue
@@ -54,6 +55,16 @@ class LiveMembers:
                 gcode_input["state"] = channel.state
                 if "inMacro" in gcode_input:
                     gcode_input["inMacro"] = channel.is_in_macro
+
+    def _show_endstops(self) -> None:
+        """An axis that stands where it has been homed touches its endstop."""
+        found = self._model.data["sensors"].get("endstops") or []
+        for axis, endstop in zip(self._motion.axes, found):
+            if endstop is not None and axis["homed"]:
+                position, high = float(axis["machinePosition"]), endstop.get("highEnd")
+                endstop["triggered"] = (
+                    position >= float(axis["max"]) if high else position <= float(axis["min"])
+                )
 
     def member(self, path: str) -> Any:
         """Return a member of the object model by its M409 key, for expressions."""

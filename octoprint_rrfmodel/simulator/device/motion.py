@@ -10,6 +10,19 @@ from typing import Any, NamedTuple
 from ..clock import Clock
 from ..model.tree import ObjectModel
 
+LONG_QUEUE, SHORT_QUEUE = 2.0, 0.5
+"""Seconds of waiting moves from which the queue takes no more."""
+USUAL_ACCELERATION = 1000.0
+RETURN_SPEED = 100.0
+"""mm/s"""
+
+
+def _seconds(distance: float, speed: float, acceleration: float, jerk: float) -> float:
+    """Return how long a move takes among others; what the jerk allows costs no time."""
+    if distance * acceleration <= speed * speed:
+        return 2 * math.sqrt(distance / acceleration)
+    return distance / speed + max(0.0, speed - jerk) ** 2 / (2 * speed * acceleration)
+
 
 class Move(NamedTuple):
     """A queued move: machine coordinates of its two ends, extruder positions, and its times."""
@@ -23,6 +36,8 @@ class Move(NamedTuple):
     speed: float
     """mm/s"""
     acceleration: float
+    origin: int | None
+    """Index of the line of a print file that it comes from."""
 
 
 class Motion:
@@ -39,7 +54,6 @@ class Motion:
         self._extruded_done: list[float] = []
         self.last_code: int | None = None
         """G number that a line of bare coordinates continues on a CNC machine."""
-        self.cold_reported = False
         self.virtual_e = 0.0
 
     @property
@@ -67,6 +81,11 @@ class Motion:
         return "elta" in str((self._model.data["move"].get("kinematics") or {}).get("name"))
 
     @property
+    def is_homed(self) -> bool:
+        """Whether all axes are."""
+        return all(axis["homed"] for axis in self.axes)
+
+    @property
     def is_moving(self) -> bool:
         return bool(self._moves)
 
@@ -76,7 +95,17 @@ class Motion:
 
     @property
     def is_full(self) -> bool:
-        return len(self._moves) >= self._model.queue_length
+        """Whether a further move has to wait.
+
+        One move waits in front of the queue, and the queue takes another while what isn't under
+        way yet takes less than 2 s, or less than 0.5 s besides its first move (RRF 3.5
+        DDARing.cpp, CanAddMove; seen in firmware).
+        """
+        if len(self._moves) >= self._model.queue_length:
+            return True
+        now = self._clock.now
+        waiting = [move.end - move.start for move in self._moves if move.start > now][:-1]
+        return sum(waiting) >= LONG_QUEUE and sum(waiting[1:]) >= SHORT_QUEUE
 
     def has_room(self) -> bool:
         """Return whether the queue takes another move, as a condition to wait for."""
@@ -99,6 +128,8 @@ class Motion:
         extruded: Sequence[float],
         feed: float,
         seconds: float | None = None,
+        *,
+        origin: int | None = None,
     ) -> None:
         """Append a move to ``target``; ``feed`` in mm/s, or the time it takes."""
         begin = self.target()
@@ -106,15 +137,33 @@ class Motion:
         if not distance and seconds is None:
             return
         speed = self._limited(begin, target, distance, feed)
+        acceleration = self._acceleration(begin, target)
         if seconds is None:
-            seconds = distance / speed
+            seconds = _seconds(distance, speed, acceleration, self._jerk(begin, target))
         now = self._clock.now
         start = max(now, self._moves[-1].end if self._moves else now)
-        acceleration = float(self.axes[0].get("acceleration") or 1000.0) if self.axes else 1000.0
         self._moves.append(
-            Move(start, start + seconds, begin, list(target), extruded, speed, acceleration)
+            Move(start, start + seconds, begin, list(target), extruded, speed, acceleration, origin)
         )
         self._target = list(target)
+
+    def _acceleration(self, begin: Sequence[float], target: Sequence[float]) -> float:
+        """Return the lowest acceleration of the axes that move."""
+        moving = [
+            float(axis.get("acceleration") or USUAL_ACCELERATION)
+            for axis, old, new in zip(self.axes, begin, target)
+            if old != new
+        ]
+        return min(moving, default=USUAL_ACCELERATION)
+
+    def _jerk(self, begin: Sequence[float], target: Sequence[float]) -> float:
+        """Return by how much the speed of the axes that move may change at once, in mm/s."""
+        moving = [
+            float(axis.get("jerk") or 0.0) / 60
+            for axis, old, new in zip(self.axes, begin, target)
+            if old != new
+        ]
+        return min(moving, default=0.0)
 
     def _limited(
         self, begin: Sequence[float], target: Sequence[float], distance: float, feed: float
@@ -190,6 +239,20 @@ class Motion:
         self._target = self.target()
         for index, value in position.items():
             self.axes[index]["machinePosition"] = self._target[index] = value
+
+    def go_back(self, target: Sequence[float]) -> None:
+        """Move to where the axes have been before, as fast as they may."""
+        if len(target) == len(self.axes):
+            self.queue(target, [0.0] * len(self.extruders), RETURN_SPEED)
+
+    def drop_waiting(self) -> int | None:
+        """Drop the print's moves that haven't begun; return where in the file the first is from."""
+        now = self._clock.now
+        first = None
+        while self._moves and self._moves[-1].start > now and self._moves[-1].origin is not None:
+            move = self._moves.pop()
+            first, self._target = move.origin, list(move.begin)
+        return first
 
     def stop(self) -> None:
         """Drop the whole queue where it is, as an emergency stop does."""

@@ -5,11 +5,14 @@ from __future__ import annotations
 from ..clock import Clock
 from ..firmware import Firmware
 from ..line.channel import Channel
+from ..line.outcome import Silently
 from ..line.output import Output
 from ..line.switches import FaultSwitches
 from .thermal import Thermal
 
 SHORTEST_INTERVAL = 0.05
+STEP = 0.25
+"""How late it may be noticed that a line is due."""
 
 
 class TemperatureLines:
@@ -45,11 +48,14 @@ class TemperatureLines:
     def _report_while_blocked(self) -> None:
         """Send temperatures while USB waits (RRF 3.3 GCodes.cpp:4620, 3.5 GCodes.cpp:4865)."""
         usb = self._usb
-        if usb.blocked_since is None or not usb.is_marlin:
+        if usb.blocked_since is None or not usb.is_marlin or isinstance(usb.wait, Silently):
             return
-        if self._clock.now - usb.reported_at < self._firmware.report_interval:
+        interval, now = self._firmware.report_interval, self._clock.now
+        late = now - usb.reported_at - interval
+        if late < 0:
             return
-        usb.reported_at = self._clock.now
+        # on time also where the board was looked at late
+        usb.reported_at = now - late if late < STEP else now
         # after M409 or M408 the report goes to the first aux port instead
         if not self._firmware.report_follows_request or usb.status_request == "M105":
             self._send()

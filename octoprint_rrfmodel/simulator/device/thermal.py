@@ -9,15 +9,19 @@ from typing import Any
 from ..clock import Clock, Condition
 from ..hardware.parts import ROOM
 from ..model.tree import ObjectModel
-from ..text.command import GCodeError
+from ..text.command import BareError, GCodeError
 from .power import Power
 
-CLOSE_ENOUGH = 2.5
-"""Distance in °C from the target at which a wait ends."""
+CLOSE_ENOUGH = 1.4
+"""Distance in °C from the target at which a wait ends (seen in firmware)."""
+REACH, APPROACH = 10.0, 13.3
+"""Degrees behind the target that a heater aims at, and seconds in which it nears them (seen)."""
 HEATING_STATES = ("active", "standby", "tuning")
 FAULT_PWM = 0.0
 STEP = 0.1
 """Shortest step of simulated time in which temperatures change."""
+LOW = 40.0
+"""Nobody waits for lower targets (RRF 3.5 Heat.cpp, TEMPERATURE_LOW_SO_DONT_CARE)."""
 OFF_BELOW = -273.0
 """Targets at or below switch a heater off (RRF 3.5 Tool.cpp:788, NEARLY_ABS_ZERO)."""
 
@@ -87,8 +91,10 @@ class Thermal:
         heater_on = heater.get("state") in HEATING_STATES and self._power.is_on
         target = self.target(heater) if heater_on else 0.0
         if current < target:
-            new = min(target, current + heating * seconds)
-            pwm = 1.0 if new < target else self._holding(target, heating, cooling)
+            full = heating - cooling * (current - ROOM)
+            rate = min(full, (target + REACH - current) / APPROACH)
+            new = min(target, current + rate * seconds)
+            pwm = round(min(1.0, 1.0 - (full - rate) / heating), 3)
         else:
             floor = max(ROOM, target)
             new = max(floor, ROOM + (current - ROOM) * math.exp(-4 * cooling * seconds))
@@ -129,6 +135,12 @@ class Thermal:
         if fan.get("rpm", -1) >= 0:
             fan["rpm"] = int(7200 * fan["actualValue"])
 
+    def check_fault(self, index: int) -> None:
+        """Raise the error of a heater that can't be switched on (seen in firmware)."""
+        heater = self.heater(index)
+        if heater is not None and heater["state"] == "fault":
+            raise BareError(f"Can't turn heater {index} on while in fault state")
+
     def set_state(self, index: int, state: str) -> None:
         """Set a heater's state, unless it is in a fault."""
         heater = self.heater(index)
@@ -157,7 +169,7 @@ class Thermal:
         if heater is None or heater["state"] in ("off", "fault", "offline"):
             return True
         target = self.target(heater)
-        if target <= 40.0 and heater["current"] <= 45.0:
+        if target < LOW and heater["current"] <= 45.0:
             return True
         if not may_cool and heater["current"] >= target:
             return True

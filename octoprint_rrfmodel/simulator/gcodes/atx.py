@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..device.thermal import Thermal
 from ..firmware import Firmware
 from ..interpreter.table import Row, Rows
@@ -25,22 +27,25 @@ class Atx:
             "M81": Row(self._power_off),
         }
 
-    def _power_on(self, channel: Channel, command: Command) -> Outcome:
-        """M80: with C it sets the port up."""
-        state = self._model.data["state"]
+    def _state(self, command: Command) -> dict[str, Any]:
+        """Return ``state`` of a board with a port for the supply, which C defines."""
+        state: dict[str, Any] = self._model.data["state"]
         if "C" in command:
             state.update(atxPower=False, atxPowerPort=command.string("C"), deferredPowerDown=False)
         if state.get("atxPowerPort") is None and self._firmware.at_least(3, 4):
             raise GCodeError("No PS_ON port defined")
+        return state
+
+    def _power_on(self, channel: Channel, command: Command) -> Outcome:
+        """M80: with C it sets the port up."""
+        state = self._state(command)
         state["atxPower"] = True
         self._model.bump("state")
         return None
 
     def _power_off(self, channel: Channel, command: Command) -> Outcome:
         """M81: with S1 once everything has cooled down."""
-        state = self._model.data["state"]
-        if state.get("atxPowerPort") is None and self._firmware.at_least(3, 4):
-            raise GCodeError("No PS_ON port defined")
+        state = self._state(command)
         if command.integer("S", 0) == 1:
             state["deferredPowerDown"] = True
         else:

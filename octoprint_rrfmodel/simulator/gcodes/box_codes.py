@@ -9,10 +9,10 @@ from ..device.boxes import CANCEL_MODE, CHOICE_MODE, CLOSE_MODE, MessageBoxes
 from ..firmware import Firmware
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
-from ..line.outcome import MacroAbandoned, Outcome, Running
+from ..line.outcome import MacroAbandoned, Outcome, Running, Silently
 from ..line.output import Output
 from ..line.switches import FaultSwitches
-from ..text.command import Command, GCodeError
+from ..text.command import Command, GCodeError, SyntaxProblem
 
 DEFAULT_TIMEOUT = 10.0
 AXES_OF_CONTROLS = "XYZ"
@@ -44,7 +44,7 @@ class BoxCodes:
 
     def _open_box(self, channel: Channel, command: Command) -> Outcome:
         """M291: modes up to 1 don't wait; from USB even the others acknowledge at once."""
-        message, title = command.string("P") or "", command.string("R") or ""
+        message, title = command.needed_string("P"), command.string("R") or ""
         mode = command.integer("S", CLOSE_MODE) or 0
         if not 0 <= mode <= self._firmware.box_modes:
             raise GCodeError("Invalid message box mode")
@@ -66,21 +66,32 @@ class BoxCodes:
             seq = -1
         if mode <= CLOSE_MODE:
             return None
-        if from_usb:
+        if seq < 0:
+            return self._without_box(channel)
+        if from_usb and not channel.is_in_macro:
             channel.awaits_acknowledgement = True
-            if seq < 0 and self._faults.is_on("usb_box_stuck"):
-                channel.is_stuck = True
-            elif seq >= 0:
-                self._clock.when(self._boxes.when_closed(seq), channel.acknowledged)
+            self._clock.when(self._boxes.when_closed(seq), channel.acknowledged)
             return None
         return self._wait_for_answer(channel, seq)
+
+    def _without_box(self, channel: Channel) -> Outcome:
+        """USB waits for an answer that nobody can give (3.5 to 3.6.0, #1141; seen in firmware)."""
+        if channel.is_in_macro:
+            channel.is_lost_in_box = True
+            return _wait_for_ever()
+        channel.awaits_acknowledgement = True
+        channel.input["stackDepth"] += 1
+        self._boxes.unanswerable += 1
+        if self._faults.is_on("usb_box_stuck"):
+            channel.is_stuck = True
+        return None
 
     def _print(self, title: str, message: str, mode: int) -> None:
         """Show the text on USB itself (RRF 3.5 Platform.cpp SendAlert)."""
         text = f"- {title} -\n{message}\n" if title else f"{message}\n"
         if mode == CANCEL_MODE:
             text += "Send M292 to continue or M292 P1 to cancel\n"
-        elif mode > CLOSE_MODE:
+        elif CLOSE_MODE < mode < CHOICE_MODE:
             text += "Send M292 to continue\n"
         self._output.text(text)
 
@@ -88,7 +99,7 @@ class BoxCodes:
         channel.awaits_acknowledgement = True
         before = len(self._boxes.answers)
         try:
-            yield self._boxes.when_closed(seq)
+            yield Silently(self._boxes.when_closed(seq))
         finally:
             channel.awaits_acknowledgement = False
         if self._boxes.answers[before:] and self._boxes.answers[-1] is False:
@@ -96,6 +107,10 @@ class BoxCodes:
 
     def _answer_box(self, channel: Channel, command: Command) -> Outcome:
         """M292: P1 cancels, R gives a value and S the box meant (both from 3.5)."""
+        if "R" in command and not command.raw["R"][0].startswith("{"):
+            raise SyntaxProblem(
+                f"{command.name}: expected an expression inside {{ }}", command.raw["R"][1]
+            )
         box = self._boxes.current
         if box is None:
             return None
@@ -109,6 +124,10 @@ class BoxCodes:
         self._boxes.answers.append(False if cancelled else value)
         self._boxes.close(box["seq"])
         return None
+
+
+def _wait_for_ever() -> Running:
+    yield Silently(lambda: False)
 
 
 def _limits(command: Command, mode: int) -> dict[str, Any]:

@@ -81,7 +81,7 @@ class Coordinates:
         """M290: S or Z, other axes by letter; relative unless R0, clamped to 1 mm a command."""
         if not command.raw:
             axes = self._motion.axes
-            offsets = ", ".join(f"{axis['letter']}:{axis['babystep']:.3f}" for axis in axes)
+            offsets = " ".join(f"{axis['letter']}:{axis['babystep']:.3f}" for axis in axes)
             return f"Baby stepping offsets (mm): {offsets}"
         absolute = command.integer("R", 1) == 0
         for index, axis in enumerate(self._motion.axes):

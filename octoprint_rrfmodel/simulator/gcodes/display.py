@@ -26,6 +26,7 @@ class Display:
             "M42": Row(self._output_port),
             "M117": Row(self._display),
             "M118": Row(self._say),
+            "M280": Row(self._output_port),
             "M300": Row(self._beep),
             "M550": Row(self._name_machine),
         }
@@ -38,9 +39,7 @@ class Display:
 
     def _say(self, channel: Channel, command: Command) -> Outcome:
         """M118: P1 to USB, P0 to all."""
-        text = command.string("S")
-        if text is None:
-            raise GCodeError("missing parameter 'S'")
+        text = command.needed_string("S")
         if command.integer("P", 0) in (0, 1):
             self._output.text(text + "\n")
         return None
@@ -72,10 +71,12 @@ class Display:
         return None
 
     def _output_port(self, channel: Channel, command: Command) -> Outcome:
-        """M42 and M280: ``state.gpOut``."""
+        """M42 and M280: ``state.gpOut``; a port that isn't there is no error."""
         ports = self._model.data["state"].get("gpOut") or []
+        for letter in "PS":
+            if letter not in command:
+                raise GCodeError(f"missing parameter '{letter}'")
         number, value = command.integer("P", 0) or 0, command.number_of("S", 0.0) or 0.0
-        if not 0 <= number < len(ports) or ports[number] is None:
-            raise GCodeError(f"GPIO port {number} not found")
-        ports[number]["pwm"] = min(1.0, value / 255 if value > 1 else value)
+        if 0 <= number < len(ports) and ports[number] is not None:
+            ports[number]["pwm"] = min(1.0, value / 255 if value > 1 else value)
         return None

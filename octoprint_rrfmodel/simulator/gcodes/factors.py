@@ -7,7 +7,7 @@ from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import Outcome
 from ..model.tree import ObjectModel
-from ..text.command import Command, GCodeError
+from ..text.command import Command, GCodeError, SyntaxProblem
 
 
 class Factors:
@@ -29,8 +29,9 @@ class Factors:
         percent = command.number_of("S")
         if percent is None:
             return f"Speed factor: {move['speedFactor'] * 100:.1f}%"
-        if percent < 1:
-            raise GCodeError("Invalid speed factor")
+        if percent <= 0:
+            column = command.raw["S"][1]
+            raise SyntaxProblem(f"{command.name}: value must be greater than zero", column)
         move["speedFactor"] = percent / 100
         self._model.bump("move")
         return None
@@ -40,7 +41,9 @@ class Factors:
         percent, drive = command.number_of("S"), command.integer("D")
         extruders = self._motion.extruders
         if drive is not None:
-            drives = [drive] if 0 <= drive < len(extruders) else []
+            if not 0 <= drive < len(extruders):
+                raise GCodeError("parameter 'D' too high")
+            drives = [drive]
             head = f"Extrusion factor for extruder {drive}: "
         else:
             tool = self._model.current_tool()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import Outcome
@@ -41,11 +43,19 @@ class Fans:
                 if letter in command:
                     fan[member] = command.number_of(letter)
                     self._model.bump("fans")
+            if speed is None and "R" in command:
+                speed = self._saved(command.integer("R", 0) or 0)
             if speed is not None:
                 fan["requestedValue"] = max(0.0, min(1.0, speed / 255 if speed > 1 else speed))
-        if not command.raw and numbers and fans:
-            return f"Fan {numbers[0]} speed: {round(fans[numbers[0]]['requestedValue'] * 100)}%"
+        if command.raw.keys() == {"P"}:
+            return _told(numbers[0], fans[numbers[0]])
         return None
+
+    def _saved(self, point: int) -> float:
+        """Return the speed of a restore point."""
+        points = self._model.data["state"].get("restorePoints") or []
+        found = points[point] if 0 <= point < len(points) else None
+        return float((found or {}).get("fanPwm") or 0.0)
 
     def _fan_off(self, channel: Channel, command: Command) -> Outcome:
         """M107."""
@@ -54,3 +64,21 @@ class Fans:
             if 0 <= number < len(self._model.data.get("fans") or ()):
                 self._model.data["fans"][number]["requestedValue"] = 0.0
         return None
+
+
+def _told(number: int, fan: dict[str, Any]) -> str:
+    """Return what M106 P says of a fan (RRF 3.5 Fan.cpp, seen in firmware)."""
+    thermostatic = fan.get("thermostatic") or {}
+    sensors = thermostatic.get("sensors") or thermostatic.get("heaters") or []
+    text = f"Fan {number} ({fan['name']})" if fan["name"] else f"Fan {number}"
+    if not sensors:
+        text += f", speed {fan['requestedValue'] * 100:.0f}%"
+    text += f", min: {fan['min'] * 100:.0f}%, max: {fan['max'] * 100:.0f}%, blip: {fan['blip']:.2f}"
+    if not sensors:
+        return text
+    low, high = thermostatic["lowTemperature"], thermostatic["highTemperature"]
+    watched = " ".join(str(sensor) for sensor in sensors)
+    return (
+        f"{text}, temperature: {low:.1f}:{high:.1f}C, sensors: {watched}, "
+        f"current speed: {fan['actualValue'] * 100:.0f}%:"
+    )

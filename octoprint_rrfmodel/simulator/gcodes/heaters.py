@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..device.motion import Motion
-from ..device.thermal import OFF_BELOW, Thermal, check_range
+from ..device.thermal import OFF_BELOW, Thermal
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import Outcome, Running
@@ -71,9 +73,15 @@ class Heaters:
         index = slots[slot] if 0 <= slot < len(slots) else -1
         heater = self._thermal.heater(index)
         active, standby = command.number_of("S"), command.number_of("R")
+        if heater is None and "H" not in command:
+            wants = (active or 0.0) > 0 or (standby or 0.0) > 0
+            if wants and index >= 0:
+                raise GCodeError(f"Heater {index} not found")
+            text = f"No {called.lower()} heater has been configured for slot {slot}"
+            if wants:
+                raise GCodeError(text)
+            return text if active is None and standby is None else None
         if heater is None:
-            if (active or 0.0) > 0 or (standby or 0.0) > 0:
-                raise GCodeError(f"No {called.lower()} heater has been configured for slot {slot}")
             return None
         if active is None and standby is None:
             if "H" in command:
@@ -84,10 +92,11 @@ class Heaters:
         for name, value in (("active", active), ("standby", standby)):
             if value is not None:
                 if value > OFF_BELOW:
-                    check_range(heater, value)
+                    _check_range(heater, index, value)
                 self._thermal.set_target(index, name, value)
         if active is not None and active > OFF_BELOW:
             self._thermal.set_state(index, "active")
+            self._thermal.check_fault(index)
         return None
 
     def _slot_wait(self, channel: Channel, command: Command) -> Running:
@@ -95,13 +104,12 @@ class Heaters:
         yield self._motion.has_stopped
         may_cool = "R" in command
         target = command.number_of("R") if may_cool else command.number_of("S")
-        member, called = SLOTS[command.number or 0]
+        member, _ = SLOTS[command.number or 0]
         slots = self._model.data["heat"].get(member) or []
         slot = command.integer("P", 0) or 0
         index = slots[slot] if 0 <= slot < len(slots) else -1
         if self._thermal.heater(index) is None:
-            if (target or 0.0) > 0:
-                raise GCodeError(f"No {called.lower()} heater has been configured for slot {slot}")
+            # a wait for a heater that isn't there is no error (seen in firmware)
             return
         if target is not None:
             self._thermal.set_target(index, "active", target)
@@ -125,3 +133,11 @@ class Heaters:
                 if heater["current"] >= 1000 or heater["current"] < -50:
                     heater["current"] = 25.0
         return None
+
+
+def _check_range(heater: dict[str, Any], index: int, value: float) -> None:
+    """Raise the error of a temperature that the heater may not have; its limit is allowed."""
+    if value > float(heater["max"]):
+        raise GCodeError(f"Temperature too high for heater {index}")
+    if value < float(heater["min"]):
+        raise GCodeError(f"Temperature too low for heater {index}")

@@ -8,13 +8,19 @@ from ..hardware.blank import NO_TAPER
 from ..interpreter.macros import Macros
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
-from ..line.outcome import Outcome, Running
+from ..line.outcome import Outcome, Running, Silently
 from ..model.tree import ObjectModel
 from ..text.command import Command, GCodeError
 
-HOMING_SECONDS = 4.0
-"""Simulated time to home one axis."""
-PROBING_SECONDS = 6.0
+HOMING_SECONDS = 2.32
+"""Simulated time to home one axis (seen in firmware: 6.96 s for three)."""
+PROBE_SECONDS = 1.62
+"""Simulated time to probe one point where the head is (seen in firmware)."""
+TRAVEL_SECONDS = 1.82
+"""Simulated time to a point that G30 P names (seen in firmware)."""
+POINT_SECONDS = 2.002
+"""Simulated time from one point of a mesh to the next (seen in firmware: 128 s for 64)."""
+MESH_POINTS = 64
 
 
 class Homing:
@@ -44,8 +50,10 @@ class Homing:
                 axes[index]["homed"] = False
             self._model.bump("move")
             at_end = self._motion.is_delta
-            for index in indexes:
-                yield self._clock.after(HOMING_SECONDS)
+            started = self._clock.now
+            for done, index in enumerate(indexes, 1):
+                left = started + done * HOMING_SECONDS - self._clock.now
+                yield Silently(self._clock.after(left))
                 axis = axes[index]
                 axis["homed"] = True
                 self._motion.jump({index: self._homed_position(index, at_end)})
@@ -94,11 +102,11 @@ class Homing:
             raise GCodeError("Insufficient axes homed for bed probing")
         yield self._motion.has_stopped
         with self._macros.running(channel):
-            yield self._clock.after(5 * PROBING_SECONDS)
+            yield Silently(self._clock.after(MESH_POINTS * POINT_SECONDS))
         self._load_mesh()
         return (
-            "100 points probed, min error -0.098, max error 0.104, mean -0.012, deviation 0.043\n"
-            "Height map saved to file 0:/sys/heightmap.csv"
+            f"{MESH_POINTS} points probed, min error -0.098, max error 0.104, mean -0.012, "
+            "deviation 0.043\nHeight map saved to file 0:/sys/heightmap.csv"
         )
 
     def _probe_point(self, channel: Channel, command: Command) -> Running:
@@ -106,8 +114,12 @@ class Homing:
         if not self._model.data["sensors"].get("probes"):
             raise GCodeError("Z probe number 0 not found")
         yield self._motion.has_stopped
+        is_elsewhere = "P" in command
         with self._macros.running(channel):
-            yield self._clock.after(PROBING_SECONDS)
+            seconds = TRAVEL_SECONDS if is_elsewhere else 0.0
+            yield Silently(self._clock.after(seconds + PROBE_SECONDS))
+        if is_elsewhere:
+            return None
         probe = self._model.data["sensors"]["probes"][0]
         if command.integer("S", 0) == -1:
             return f"Stopped at height {probe['triggerHeight']:.3f} mm"
@@ -123,4 +135,3 @@ class Homing:
         yield self._motion.has_stopped
         with self._macros.running(channel):
             yield from self._macros.system(channel, "bed.g")
-            yield self._clock.after(3 * PROBING_SECONDS)

@@ -1,4 +1,4 @@
-"""Meta commands: echo, variables, abort. Conditions and loops are accepted and do nothing."""
+"""Meta commands: echo, variables; in files abort too, and conditions and loops that do nothing."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..line.outcome import MacroAbandoned, Outcome
 from ..line.output import Output
 from ..model.tree import ObjectModel
 from ..text import expression
-from ..text.command import Command, GCodeError
+from ..text.command import Command, GCodeError, SyntaxProblem, UnansweredError
 
 _SET = re.compile(r"(var|global)\.([A-Za-z_]\w*)((?:\[[^\]]*\])*)\s*=(.*)", re.DOTALL)
 """An assignment; groups: kind, name, indexes, expression."""
@@ -49,7 +49,10 @@ class MetaCommands:
         try:
             return self._words[word](channel, rest)
         except expression.BadExpression as error:
-            raise GCodeError(str(error)) from None
+            # the list of echo is read with a brace in front of it
+            before = command.column + len(word) + (1 if word == "echo" else 2)
+            column = None if error.at is None else before + error.at
+            raise SyntaxProblem(f"meta command: {error}", column, error.names_line) from None
 
     def _echo(self, channel: Channel, text: str) -> Outcome:
         values = expression.arguments(text, self._decoder.lookup(channel))
@@ -64,7 +67,7 @@ class MetaCommands:
     def _global(self, channel: Channel, text: str) -> Outcome:
         name, value = self._declared(channel, text)
         if name in self._model.data["global"]:
-            raise GCodeError(f"variable '{name}' already exists")
+            raise UnansweredError(f"variable '{name}' already exists")
         self._model.data["global"][name] = value
         self._model.bump("global")
         return None

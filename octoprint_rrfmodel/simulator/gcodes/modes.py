@@ -24,7 +24,9 @@ class Modes:
         return {
             "G11": Row(self._firmware_retraction),
             "M302": Row(self._cold_extrusion),
+            "M450": Row(self._tell_mode),
             "M451": Row(partial(self._machine_mode, "FFF")),
+            "M452": Row(partial(self._machine_mode, "Laser")),
             "M453": Row(partial(self._machine_mode, "CNC")),
             "M561": Row(self._identity_transform),
         }
@@ -42,8 +44,14 @@ class Modes:
     def _cold_extrusion(self, channel: Channel, command: Command) -> Outcome:
         """M302: S sets the temperature, P1 allows cold extrusion."""
         if not command.raw:
-            limit = self._model.data["heat"]["coldExtrudeTemperature"]
-            return f"Cold extrusion is denied, min. extrusion temperature {limit:.1f}°C"
+            heat = self._model.data["heat"]
+            if self._thermal.cold_extrusion_allowed:
+                return "Cold extrusion is allowed (use M302 P0 to forbid it)"
+            return (
+                "Cold extrusion is forbidden (use M302 P1 to allow it), min. extrusion temperature "
+                f"{heat['coldExtrudeTemperature']:.1f}C, min. retraction temperature "
+                f"{heat['coldRetractTemperature']:.1f}C"
+            )
         for letter, member in (("S", "coldExtrudeTemperature"), ("R", "coldRetractTemperature")):
             value = command.number_of(letter)
             if value is not None:
@@ -52,6 +60,10 @@ class Modes:
         if "P" in command:
             self._thermal.cold_extrusion_allowed = command.integer("P", 0) == 1
         return None
+
+    def _tell_mode(self, channel: Channel, command: Command) -> Outcome:
+        """M450."""
+        return f"PrinterMode:{self._model.data['state']['machineMode']}"
 
     def _machine_mode(self, mode: str, channel: Channel, command: Command) -> Outcome:
         """M451 and M453: the machine is a printer or a router."""

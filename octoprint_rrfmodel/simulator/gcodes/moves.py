@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..clock import Clock
+from ..device.extrusion import ExtrusionWarnings
 from ..device.job import Job
 from ..device.motion import Motion
 from ..device.thermal import Thermal
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import MoveError, Outcome, Running
-from ..line.output import Output
 from ..model.tree import ObjectModel
-from ..text.command import Command
+from ..text.command import Command, GCodeError
 
 INCH = 25.4
-_NO_TOOL = "Error: Attempting to extrude with no tool selected.\n"
+HIGHEST_CODE = 4
+"""Highest H of G1."""
 
 
 class Moves:
@@ -30,14 +31,14 @@ class Moves:
         thermal: Thermal,
         job: Job,
         clock: Clock,
-        output: Output,
+        warnings: ExtrusionWarnings,
     ):
         self._model = model
         self._motion = motion
         self._thermal = thermal
         self._job = job
         self._clock = clock
-        self._output = output
+        self._warnings = warnings
 
     def rows(self) -> Rows:
         return {
@@ -69,6 +70,10 @@ class Moves:
         motion = self._motion
         motion.last_code = command.number
         code = int(words.get("H", 0))
+        if not 0 <= code <= HIGHEST_CODE:
+            raise GCodeError("parameter 'H' too high")
+        if command.number in (2, 3) and not words.keys() & set("IJKR"):
+            raise GCodeError("no I J K or R parameter")
         begin = motion.target()
         target = list(begin)
         involved: list[int] = []
@@ -88,7 +93,9 @@ class Moves:
         speed = modal["feedRate"] * float(self._model.data["move"].get("speedFactor") or 1.0)
         if command.number == 0 and self._model.is_cnc and "F" not in words:
             speed = max(float(axis["speed"]) / 60 for axis in motion.axes)
-        motion.queue(target, self._extrusion(channel, command, words, scale, bool(involved)), speed)
+        extrusion = self._extrusion(channel, command, words, scale, bool(involved))
+        origin = self._job.line_number - 1 if channel.name == "File" else None
+        motion.queue(target, extrusion, speed, origin=origin)
 
     def _check_homed(self, involved: Sequence[int]) -> None:
         move = self._model.data["move"]
@@ -138,22 +145,15 @@ class Moves:
             requested = [words["E"] * scale]
         else:
             requested = [words["E"] * scale - motion.virtual_e]
-        motion.virtual_e += sum(requested)
+        if not drives_relative:
+            motion.virtual_e += sum(requested)
         tool = self._model.current_tool()
         if tool is None:
-            if not motion.cold_reported:
-                motion.cold_reported = True
-                self._output.text(_NO_TOOL)
+            self._warnings.no_tool()
             return amounts
         if not self._thermal.can_extrude(tool):
-            if not motion.cold_reported:
-                motion.cold_reported = True
-                self._output.text(
-                    f"Error: Tool {tool['number']} was not driven because its heater temperatures "
-                    "were not high enough or it has a heater fault\n"
-                )
+            self._warnings.cold(tool["number"])
             return amounts
-        motion.cold_reported = False
         drives = tool.get("extruders") or []
         mix = tool.get("mix") or [1.0]
         for position, drive in enumerate(drives):

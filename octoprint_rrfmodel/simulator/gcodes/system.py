@@ -14,6 +14,11 @@ from ..text.command import Command, GCodeError
 from ..text.serial_line import COMPATIBILITIES, NO_REPLY
 
 EMERGENCY = "Emergency Stop! Reset the controller to continue.\n"
+MODULES = """
+    Platform Network Webserver Gcodes Move Heat Kinematics InputShaping Debug PrintMonitor Storage
+    PortControl DuetExpansion FilamentSensors WiFi Display SbcInterface CAN Expansion
+"""
+"""Names of M111, in the order of their numbers (RRF 3.5)."""
 RESET_SECONDS = 1.0
 """Time from M999 to the restart (RRF 3.5 GCodes2.cpp:4718)."""
 
@@ -37,6 +42,7 @@ class System:
         self._restart = restart
         self._usb = usb
         self._output = output
+        self._debugged: set[int] = set()
 
     def rows(self) -> Rows:
         return {
@@ -61,11 +67,20 @@ class System:
     def _debug(self, channel: Channel, command: Command) -> Outcome:
         """M111: a table; without parameters or with P there is no ok (RRF 3.5 GCodes2.cpp:1914)."""
         if not command.raw or "P" in command:
-            self._output.text(
-                "Debugging enabled for modules: none\nDebugging disabled for modules:\n"
-            )
+            number = command.integer("P")
+            if number is not None and "S" in command:
+                self._debugged.discard(number)
+                if command.integer("S", 0):
+                    self._debugged.add(number)
+            self._output.text(self._debug_table())
             return NO_REPLY
         return None
+
+    def _debug_table(self) -> str:
+        modules = MODULES.split()
+        on = "".join(f" {modules[n]}({n} - 0xffffffff)" for n in sorted(self._debugged))
+        off = " ".join(f"{name}({n})" for n, name in enumerate(modules) if n not in self._debugged)
+        return f"Debugging enabled for modules:{on}\nDebugging disabled for modules: {off}\n"
 
     def _compatibility(self, channel: Channel, command: Command) -> Outcome:
         """M555: for this channel only."""

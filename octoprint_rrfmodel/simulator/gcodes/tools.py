@@ -9,18 +9,18 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..clock import Clock
-from ..device.activity import Activity
 from ..device.motion import Motion
 from ..device.thermal import OFF_BELOW, Thermal, check_range
 from ..firmware import Firmware
+from ..interpreter.macros import Macros
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import Outcome, Running
 from ..model.tree import ObjectModel
 from ..text.command import Command, GCodeError
 
-MACRO_SECONDS = 1.5
-"""Simulated time of each of tfree, tpre and tpost."""
+ONE_LOOP = 0.001
+"""A wait takes at least one turn of the firmware's main loop."""
 
 
 class Tools:
@@ -33,14 +33,14 @@ class Tools:
         motion: Motion,
         thermal: Thermal,
         clock: Clock,
-        activity: Activity,
+        macros: Macros,
         firmware: Firmware,
     ):
         self._model = model
         self._motion = motion
         self._thermal = thermal
         self._clock = clock
-        self._activity = activity
+        self._macros = macros
         self._firmware = firmware
 
     def rows(self) -> Rows:
@@ -113,27 +113,32 @@ class Tools:
         state = self._model.data["state"]
         if old is new:
             return
-        self._activity.is_changing_tool = True
+        activity = self._macros.activity
+        activity.is_changing_tool = True
         self._announce(old, new)
         try:
-            with self._activity.running_macro(channel):
+            with activity.running_macro(channel):
                 if old is not None:
                     if macros & 1:
-                        yield self._clock.after(MACRO_SECONDS)
+                        yield from self._change_macro(channel, "tfree", old["number"])
                     old["state"] = "standby"
                     self._set_tool_heaters(old, "standby")
                     state["currentTool"] = -1
                 if new is not None:
                     if macros & 2:
-                        yield self._clock.after(MACRO_SECONDS)
+                        yield from self._change_macro(channel, "tpre", new["number"])
                     new["state"] = "active"
                     self._set_tool_heaters(new, "active")
                     state["currentTool"] = new["number"]
                     if macros & 4:
-                        yield self._clock.after(MACRO_SECONDS)
+                        yield from self._change_macro(channel, "tpost", new["number"])
         finally:
-            self._activity.is_changing_tool = False
+            activity.is_changing_tool = False
         self._announce(new, new)
+
+    def _change_macro(self, channel: Channel, name: str, number: int) -> Running:
+        """Run the tool's own file, or that of all tools (RRF 3.5 GCodes4.cpp)."""
+        return self._macros.system(channel, f"{name}{number}.g", f"{name}.g")
 
     def _announce(self, old: dict[str, Any] | None, new: dict[str, Any] | None) -> None:
         state = self._model.data["state"]
@@ -162,6 +167,8 @@ class Tools:
         is_current = tool is self._model.current_tool()
         tool["state"] = "active" if is_current else "standby"
         self._set_tool_heaters(tool, "active" if is_current else "standby")
+        for index in tool.get("heaters") or ():
+            self._thermal.check_fault(index)
 
     def _set_and_wait(self, channel: Channel, command: Command) -> Running:
         """M109: waits for the moves, selects the tool if none is, sets and waits."""
@@ -173,6 +180,7 @@ class Tools:
         values = command.numbers("R") if may_cool else command.numbers("S")
         if values is not None:
             self._heat_tool(tool, values)
+        yield self._clock.after(ONE_LOOP)
         yield self._thermal.awaited(tool.get("heaters") or (), may_cool)
 
     def _tool_settings(self, channel: Channel, command: Command) -> Outcome:

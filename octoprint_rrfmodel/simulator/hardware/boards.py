@@ -108,7 +108,7 @@ MINI5PLUS = Mainboard(
     drivers=7,
     heaters=32,
     queue_length=40,
-    limits=_limits(),
+    limits=_limits(fans=32, gpInPorts=56, gpOutPorts=64, heatersPerTool=2, triggers=16),
     unique_id="SIM01-5Q7KM-N2R3D-4TL0S-6S21B-1MNR1",
 )
 MB6HC = Mainboard(

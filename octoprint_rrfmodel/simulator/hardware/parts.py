@@ -204,9 +204,9 @@ def tool(
         "offsetsProbed": 0,
         "retraction": {
             "extraRestart": 0.0,
-            "length": 0.8,
-            "speed": 35.0,
-            "unretractSpeed": 25.0,
+            "length": 2.0,
+            "speed": 1000.0 / 60,
+            "unretractSpeed": 1000.0 / 60,
             "zHop": 0.0,
         },
         "spindle": -1,

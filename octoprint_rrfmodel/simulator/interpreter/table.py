@@ -10,6 +10,7 @@ from ..firmware import Firmware
 from ..line.channel import Channel
 from ..line.outcome import Outcome
 from ..text.command import Command, GCodeError
+from ..text.serial_line import NO_REPLY
 
 Function = Callable[[Channel, Command], Outcome]
 Release = tuple[int, ...]
@@ -41,6 +42,11 @@ class Group(Protocol):
         """Return the rows of the table that these G-codes are."""
 
 
+WITH_FRACTIONS = frozenset(
+    ("G38", "G59", "M36", "M569", "M586", "M587", "M588", "M589", "M672", "M955", "M956")
+)
+"""Whose fractions mean something; any other makes a command one that isn't supported."""
+
 UNKNOWN = "unknown"
 """Row of whatever has no other."""
 
@@ -68,6 +74,8 @@ class GCodes:
     def execute(self, channel: Channel, command: Command) -> Outcome:
         """Return what the command's function returns."""
         name, row = self._row_of(command)
+        if command.letter == "Q":
+            return NO_REPLY
         if self._activity.is_halted and name not in WHILE_HALTED:
             raise GCodeError("Machine is halted")
         if row is None or not row.is_known_to(self._firmware.release):
@@ -81,4 +89,6 @@ class GCodes:
         if command.fraction >= 0 and command.name in self._rows:
             return command.name, self._rows[command.name]
         name = f"{command.letter}{command.number}"
+        if command.fraction > 0 and name not in WITH_FRACTIONS:
+            return name, None
         return name, self._rows.get(name)

@@ -7,7 +7,7 @@ from typing import Any, Callable
 
 from ..clock import Condition
 from ..model.tree import ObjectModel
-from ..text.command import Command, GCodeError
+from ..text.command import BareError, Command
 from .outcome import Running
 
 STACK_DEPTH = 10
@@ -50,7 +50,13 @@ class Channel:
         """The last of M105, M408 S0 and M409 that came on this channel."""
         self.requires_checksum = False
         self.awaits_acknowledgement = False
+        self.is_lost_in_box = False
+        """Whether its macro waits for an answer to a box that none can be given to."""
         self.is_stuck = False
+        self.line_number: int | None = None
+        """Number of the line that is being run, ``None`` without one."""
+        self.line_count = 0
+        """Lines received since the restart."""
         self.blocked_since: float | None = None
         self.reported_at = 0.0
         self.variables: dict[str, Any] = {}
@@ -94,7 +100,7 @@ class Channel:
     def push(self) -> None:
         """Keep the modal state (M120)."""
         if len(self._stack) >= STACK_DEPTH:
-            raise GCodeError("Push(): stack overflow")
+            raise BareError(f"Push(): stack overflow on {self.name}")
         channel = self.input
         self._stack.append({name: channel.get(name) for name in _STACK_MEMBERS if name in channel})
         self.input["stackDepth"] = len(self._stack)
@@ -102,7 +108,7 @@ class Channel:
     def pop(self) -> None:
         """Go back to the modal state kept last (M121)."""
         if not self._stack:
-            raise GCodeError("Pop(): stack underflow")
+            raise BareError(f"Pop(): stack underflow on {self.name}")
         self.input.update(self._stack.pop())
         self.input["stackDepth"] = len(self._stack)
 
@@ -115,7 +121,7 @@ class Channel:
         self.macro_depth = 0
         self.upload = None
         self.blocked_since = None
-        self.awaits_acknowledgement = False
+        self.awaits_acknowledgement = self.is_lost_in_box = False
 
     def acknowledged(self) -> None:
         """Go on after the message box that the channel has opened."""

@@ -22,6 +22,20 @@ class MoveError(GCodeError):
     """A G0 to G3 that fails; it takes the rest of its line with it."""
 
 
+class Silently:
+    """A condition during whose wait no temperatures are reported.
+
+    RRF reports while a command is retried (M109, M190, M191, M116, G4, M400, any that waits for
+    moves), not while a state machine or a macro goes on (3.5 GCodes.cpp:4865, seen in firmware).
+    """
+
+    def __init__(self, condition: Condition):
+        self._condition = condition
+
+    def __call__(self) -> bool:
+        return self._condition()
+
+
 class MacroAbandoned(Exception):
     """Ends the macro that runs, after a cancelled message box or ``abort``."""
 

@@ -21,6 +21,7 @@ class Output:
         self._plug = plug
         self._late: deque[tuple[float, bytes]] = deque()
         self._ready = bytearray()
+        self._ready_since = 0.0
         self._line_free_at = 0.0
 
     def reply(self, text: str) -> None:
@@ -38,7 +39,7 @@ class Output:
         if self._late:
             due = max(due, self._late[-1][0])
         if due <= self._clock.now:
-            self._ready += data
+            self._make_ready(due, data)
         else:
             self._late.append((due, data))
 
@@ -46,9 +47,12 @@ class Output:
         """Return what the host can have by now."""
         now, faults = self._clock.now, self._faults
         while self._late and self._late[0][0] <= now:
-            self._ready += self._late.popleft()[1]
+            self._make_ready(*self._late.popleft())
         if faults.is_on("stall"):
             return b""
+        if faults.is_on("unread") and now - self._ready_since > faults.number("unread"):
+            # RRF 3.5 Platform.cpp:1055, SERIAL_MAIN_TIMEOUT (seen in firmware)
+            self._ready.clear()
         if not faults.is_on("baud"):
             data = bytes(self._ready)
             self._ready.clear()
@@ -59,6 +63,11 @@ class Output:
         del self._ready[:count]
         self._line_free_at = self._line_free_at + count * seconds_per_byte if self._ready else now
         return data
+
+    def _make_ready(self, since: float, data: bytes) -> None:
+        if not self._ready:
+            self._ready_since = since
+        self._ready += data
 
     def discard(self) -> None:
         """Forget what the host hasn't fetched."""

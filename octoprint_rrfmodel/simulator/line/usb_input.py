@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 from ..clock import Clock
 from .channel import Channel
@@ -22,6 +22,8 @@ class UsbInput:
     """The receive buffer in front of the USB channel, and the log of what has come in."""
 
     def __init__(self, clock: Clock, channel: Channel):
+        self.takes: Callable[[str, bool], bool] | None = None
+        """Called with a line and whether the input has room, says whether it is done with."""
         self._clock = clock
         self._channel = channel
         self._bytes = bytearray()
@@ -34,10 +36,11 @@ class UsbInput:
         return waiting < RECEIVE_BUFFER
 
     def receive(self, data: bytes) -> None:
-        """Take bytes, and cut them at CR and LF, both of which end a line."""
+        """Take bytes, and cut them at CR, LF and NUL, each of which ends a line."""
         self._bytes += data
-        if b"\r" in self._bytes:
-            self._bytes = self._bytes.replace(b"\r", b"\n")
+        for end in (b"\r", b"\x00"):
+            if end in self._bytes:
+                self._bytes = self._bytes.replace(end, b"\n")
         *lines, rest = self._bytes.split(b"\n")
         if not lines:
             return
@@ -46,6 +49,8 @@ class UsbInput:
             if line:
                 text = line.decode("utf-8", "surrogateescape")
                 self.log.append(Received(self._clock.now, text))
+                if self.takes is not None and self.takes(text, self.has_room):
+                    continue
                 self._channel.lines.append(text)
 
     def discard(self) -> None:

@@ -63,6 +63,12 @@ def _move(machine: Machine, queue_length: int, is_duet2: bool) -> dict[str, Any]
                 "mins": [15.0, 15.0],
                 "radius": -1.0,
                 "spacings": [20.0, 20.0],
+                "xMax": 215.0,
+                "xMin": 15.0,
+                "xSpacing": 20.0,
+                "yMax": 195.0,
+                "yMin": 15.0,
+                "ySpacing": 20.0,
             },
             "skew": {"compensateXY": True, "tanXY": 0.0, "tanXZ": 0.0, "tanYZ": 0.0},
             "type": "none",
@@ -90,10 +96,11 @@ def _move(machine: Machine, queue_length: int, is_duet2: bool) -> dict[str, Any]
         "shaping": {
             "amplitudes": [],
             "damping": 0.1,
-            "delays": [],
+            "delays": [0.0],
             "durations": [],
             "frequency": 40.0,
             "minimumAcceleration": 10.0,
+            "reductionLimit": 0.25,
             "type": "none",
         },
         "speedFactor": 1.0,
@@ -114,7 +121,7 @@ def _state(machine: Machine, axes: int) -> dict[str, Any]:
         "displayMessage": "",
         "gpOut": [{"freq": 500, "pwm": 0.0} for _ in range(machine.gp_out)],
         "laserPwm": None,
-        "logFile": None,
+        "logFile": "",
         "logLevel": "off",
         "machineMode": machine.mode,
         "macroRestarted": False,
@@ -206,6 +213,10 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     """Return a new object model of that machine, as after ``config.g``, clocks at zero."""
     board = mainboard(machine, firmware)
     move = _move(machine, board.queue_length, board.is_duet2)
+    if firmware.at_least(3, 7) and move["kinematics"]["name"] == "delta":
+        move["kinematics"]["name"] = "linearDelta"
+    if firmware.at_least(3, 6):
+        move["shaping"]["amplitudes"] = [1.0]
     axes = len(move["axes"])
     seqs: dict[str, Any] = {name: 0 for name in SEQS.split()}
     seqs["volChanges"] = [0, 0]

@@ -41,7 +41,8 @@ _NEW = {
         fans[].thermostatic.sensors
         job.lastWarmUpDuration ledStrips limits.ledStrips limits.portsPerHeater
         move.axes[].backlash move.axes[].reducedAcceleration move.backlashFactor
-        move.currentMove.extrusionRate move.extruders[].filamentDiameter move.keepout
+        move.shaping.reductionLimit move.currentMove.extrusionRate
+        move.extruders[].filamentDiameter move.keepout
         sensors.analog[].offsetAdj sensors.analog[].slopeAdj sensors.analog[].state
         sensors.analog[].port sensors.analog[].beta sensors.analog[].c sensors.analog[].r25
         sensors.analog[].rRef sensors.endstops[].probe sensors.filamentMonitors[].enableMode
@@ -65,12 +66,14 @@ _OLD = {
         move.shaping.minimumAcceleration
     """,
     UNTIL_34: """
+        move.compensation.probeGrid.xMax move.compensation.probeGrid.xMin
+        move.compensation.probeGrid.xSpacing move.compensation.probeGrid.yMax
+        move.compensation.probeGrid.yMin move.compensation.probeGrid.ySpacing
         directories.scans job.firstLayerDuration job.timesLeft.layer move.workspaceNumber
         scanner seqs.scanner sensors.probes[].speed sensors.probes[].temperatureCoefficient
-        fans[].thermostatic.heaters
     """,
     UNTIL_35: """
-        move.shaping.durations
+        move.shaping.durations move.shaping.reductionLimit
     """,
 }
 
@@ -82,7 +85,7 @@ def _table() -> dict[str, tuple[Release | None, Release | None]]:
             table[path] = (since, None)
     for until, paths in _OLD.items():
         for path in paths.split():
-            table[path] = (None, until)
+            table[path] = (table.get(path, (None, None))[0], until)
     return table
 
 

@@ -26,6 +26,8 @@ BUFFER_SIZE = 256
 DSF_KEYS = ("network", "volumes")
 """Answered by Duet Software Framework in SBC mode (RRF 3.5 GCodes2.cpp:3118)."""
 
+HEATER_MODEL = "heat.heaters[].model"
+
 _EXPONENT_FROM = 9.2e18
 _MOST_DIGITS = 7
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
@@ -165,12 +167,20 @@ def _cut(parts: list[str], before: int, limit: int) -> int:
     return len(parts)
 
 
+def _marks_of(firmware: Firmware) -> dict[str, Any]:
+    """Return the marks of that firmware; heater models aren't verbose any more (seen in 3.5)."""
+    found: dict[str, Any] = dict(MARKS)
+    if firmware.at_least(3, 5):
+        found[HEATER_MODEL] = frozenset(MARKS.get(HEATER_MODEL, ())) - {"verbose"}
+    return found
+
+
 class ModelText:
     """Answers M409 for one board: text of the object model under the limits of its firmware."""
 
-    def __init__(self, firmware: Firmware, buffers: int, marks: Mapping[str, Any] = MARKS):
+    def __init__(self, firmware: Firmware, buffers: int, marks: Mapping[str, Any] | None = None):
         self._firmware = firmware
-        self._marks = marks
+        self._marks = _marks_of(firmware) if marks is None else marks
         self.decimals = decimals_of(firmware.release)
         self.most_bytes = buffers * BUFFER_SIZE
         """What fits in all output buffers together."""

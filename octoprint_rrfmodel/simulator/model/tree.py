@@ -9,6 +9,7 @@ from ..hardware.blank import INPUT_NAMES, gcode_input
 from .members import for_firmware
 
 USUAL_QUEUE_LENGTH = 40
+SIZES = ("capacity", "freeSpace", "openFiles", "partitionSize", "speed")
 
 
 class ObjectModel:
@@ -22,6 +23,7 @@ class ObjectModel:
     def restart(self) -> None:
         """Forget everything that has happened to the machine."""
         self.data = self._build()
+        self._sizes: dict[str, Any] = {}
         self._spare_inputs: dict[str, dict[str, Any]] = {}
 
     def bump(self, *keys: str) -> None:
@@ -78,10 +80,19 @@ class ObjectModel:
         volumes = self.data.get("volumes") or [None]
         if volumes[0] is not None:
             volumes[0]["mounted"] = mounted
+            self._show_sizes(volumes[0], mounted)
         changes = (self.data.get("seqs") or {}).get("volChanges") or []
         if changes:
             changes[0] = (changes[0] + 1) & 0xFFFF
         self.bump("volumes")
+
+    def _show_sizes(self, volume: dict[str, Any], mounted: bool) -> None:
+        """A card that isn't mounted has no sizes (seen in firmware)."""
+        if not mounted:
+            self._sizes.update({name: volume[name] for name in SIZES if volume.get(name)})
+        for name in SIZES:
+            if name in volume:
+                volume[name] = self._sizes.get(name, volume[name]) if mounted else None
 
     def volume_open(self, is_open: bool) -> None:
         """Show whether a file on the card is open."""

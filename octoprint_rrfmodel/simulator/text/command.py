@@ -1,4 +1,4 @@
-"""One G-code command: its letter, number and parameters, and a line cut into commands."""
+"""One G-code command: its letter, number and parameters."""
 
 from __future__ import annotations
 
@@ -9,29 +9,15 @@ from . import expression
 
 Lookup = Callable[[str], Any]
 
-WHOLE_LINE = frozenset((23, 28, 30, 32, 36, 37, 38, 117))
-"""M-codes whose text runs to the end of the line, whatever letters are in it."""
+CONTROL = re.compile(r"[\x00-\x1f]")
+"""What may stand in no text."""
 
-META_WORDS = frozenset(
-    ("abort", "break", "continue", "echo", "elif", "else", "global", "if", "set", "skip", "var")
-    + ("while",)
-)
-
-_META = re.compile(r"\s*([a-z]+)\b(.*)", re.DOTALL)
-"""A meta command; groups: word, the rest."""
-
-_HEAD = re.compile(r"\s*(?:([GMgm])\s*(\d+)(?:\.(\d+))?|([Tt])\s*(-?\d+(?![.\d])|\{[^}]*\})?)")
-"""The start of a command; groups: letter, number, fraction, T, tool."""
-
-_IN_BRACES = r'(?:"(?:[^"]|"")*"(?!")|[^{}"])*'
+IN_BRACES = r'(?:"(?:[^"]|"")*"(?!")|[^{}"])*'
 """What may stand between braces besides further braces: braces in a text are none."""
-
-_NEXT = re.compile(rf'"(?:[^"]|"")*"?|\{{{_IN_BRACES}\}}?|\'.|[GMgm](?=\s*\d)')
-"""What matters for finding the next command; only a letter that isn't quoted starts one."""
 
 _PARAMETER = re.compile(
     r"""\s*('?[A-Za-z])\s*((?:"(?:[^"]|"")*")|"""
-    rf"""(?:\{{{_IN_BRACES}(?:\{{{_IN_BRACES}\}}{_IN_BRACES})*\}})|"""
+    rf"""(?:\{{{IN_BRACES}(?:\{{{IN_BRACES}\}}{IN_BRACES})*\}})|"""
     r"""(?:[^\s"{}A-Za-z']+(?:[eE][-+]?\d+(?![\d.]))?))?"""
 )
 """One parameter; groups: letter with its apostrophe, value as written."""
@@ -48,14 +34,33 @@ _MOVE = re.compile(r"([A-Z])\s*(-?\d+\.?\d*|-?\.\d+)")
 class GCodeError(Exception):
     """A command that fails; the text is the reply without ``Error:`` and command name."""
 
+    is_bare = False
+    """Whether the reply leaves the name of the command out."""
+    is_silent = False
+    """Whether no ``ok`` follows."""
+
+
+class BareError(GCodeError):
+    """A command that fails with a reply that doesn't name it."""
+
+    is_bare = True
+
+
+class UnansweredError(GCodeError):
+    """A command that fails without any ``ok`` (seen in firmware)."""
+
+    is_silent = True
+
 
 class SyntaxProblem(Exception):
     """A command that can't be read; ``column`` counts from 1 where it is known."""
 
-    def __init__(self, text: str, column: int | None = None):
+    def __init__(self, text: str, column: int | None = None, names_line: bool = False):
         super().__init__(text)
         self.text = text
         self.column = column
+        self.names_line = names_line
+        """Whether the message names the channel's line besides the column."""
 
 
 class Command:
@@ -74,7 +79,7 @@ class Command:
         lookup: Lookup,
     ):
         self.letter = letter
-        """``G``, ``M``, ``T``, ``Q`` for a comment, ``meta`` for a meta command."""
+        """``G``, ``M``, ``T``, ``Q`` for a comment, ``meta`` for a meta command, ``bad``."""
         self.number = number
         self.fraction = fraction
         self.text = text
@@ -115,13 +120,17 @@ class Command:
         if text.startswith('"'):
             return self.unquoted(text)
         if text.startswith("{"):
-            try:
-                return expression.evaluate(text, self._lookup)
-            except expression.BadExpression as error:
-                raise SyntaxProblem(f"{self.name}: {error}", column) from None
+            return self._evaluated(text, column)
         if ":" in text:
             return [self._number(part, column) for part in text.split(":")]
         return self._number(text, column) if text else None
+
+    def _evaluated(self, text: str, column: int) -> Any:
+        try:
+            return expression.evaluate(text, self._lookup)
+        except expression.BadExpression as error:
+            at = column if error.at is None else column + error.at
+            raise SyntaxProblem(f"{self.name}: {error}", at, error.names_line) from None
 
     def _number(self, text: str, column: int) -> float:
         try:
@@ -140,6 +149,10 @@ class Command:
                     f"{self.name}: expected number after '{letter}'", self.raw[letter][1]
                 )
             return default
+        if self.raw[letter][0].startswith('"'):
+            raise SyntaxProblem(
+                f"{self.name}: expected number after '{letter}'", self.raw[letter][1]
+            )
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise SyntaxProblem(f"{self.name}: expected a numeric expression", self.raw[letter][1])
         return float(value)
@@ -161,12 +174,61 @@ class Command:
         if letter not in self.raw:
             return None
         text, column = self.raw[letter]
-        value = self.value(letter) if text[:1] in ('"', "{") else None
-        if not isinstance(value, str):
+        rest = self.text[column - self.column - 1 :]
+        if text[:1] == "{":
+            value = expression.text_of(self.value(letter))
+        elif rest[:1] == "{":
+            value = self._evaluated(rest, column)
+        elif text[:1] == '"':
+            self._check_characters(text, column)
+            value = self.unquoted(text)
+        elif rest[:1] == '"':
+            # a text that isn't closed ends in the line's own end
+            raise self._bad_character(self.column + len(self.text) + 2)
+        else:
             raise SyntaxProblem(f"{self.name}: expected a string expression", column)
         if longest is not None and len(value.encode("utf-8")) > longest:
             raise SyntaxProblem(f"{self.name}: string too long", column)
         return value
+
+    def _bad_character(self, column: int) -> SyntaxProblem:
+        return SyntaxProblem(f"{self.name}: control character in string", column)
+
+    def _check_characters(self, text: str, column: int) -> None:
+        found = CONTROL.search(text)
+        if found is not None:
+            raise self._bad_character(column + found.start() + 1)
+
+    def needed_string(self, letter: str, longest: int | None = None) -> str:
+        """Return the text behind the letter, which must be there and not empty."""
+        if letter not in self.raw:
+            raise GCodeError(f"missing parameter '{letter}'")
+        text = self.string(letter, longest) or ""
+        if not text:
+            raise self._empty(self.raw[letter][1] + len(self.raw[letter][0]))
+        return text
+
+    def needed_name(self) -> str:
+        """Return the argument of M23 and the like, which must not be empty."""
+        name = self.unquoted_text()
+        if not name:
+            raise self._empty(self.column + len(self.text.rstrip()) + 2)
+        return name
+
+    def loose_string(self, letter: str) -> str | None:
+        """Return the text behind the letter, with or without quotes, not empty."""
+        if letter not in self.raw:
+            return None
+        column = self.raw[letter][1]
+        rest = self.text[column - self.column - 1 :]
+        if rest[:1] in ('"', "{"):
+            return self.needed_string(letter)
+        if not rest.strip():
+            raise self._empty(column + 1)
+        return rest.strip()
+
+    def _empty(self, column: int) -> SyntaxProblem:
+        return SyntaxProblem(f"{self.name}: expected a non-empty string", column)
 
     def unquoted_text(self) -> str:
         """Return the argument of M23, M117 and the like, with or without quotes."""
@@ -190,73 +252,3 @@ class Command:
             if not rest or rest.isspace():
                 return {letter: float(number) for letter, number in found}
         return {letter: self.number_of(letter) or 0.0 for letter in self.raw}
-
-
-def without_comment(line: str, parentheses: bool = False) -> str:
-    """Return the line up to its comment; quotes and, on a CNC machine, ``( )`` are seen."""
-    if ";" in line:
-        quoted = False
-        for at, char in enumerate(line):
-            if char == '"':
-                quoted = not quoted
-            elif char == ";" and not quoted:
-                line = line[:at]
-                break
-    if parentheses and "(" in line and '"' not in line:
-        line = re.sub(r"\([^)]*\)?", "", line)
-    return line
-
-
-def _end_of_command(line: str, start: int) -> int:
-    for match in _NEXT.finditer(line, start):
-        if match.group()[0] in "GMgm":
-            return match.start()
-    return len(line)
-
-
-def commands_of(line: str, lookup: Lookup, last_move: int | None = None) -> list[Command]:
-    """Return the commands of a line without its comment; :class:`SyntaxProblem` where it has none.
-
-    ``last_move`` is the G number that a line with coordinates only continues (CNC mode).
-    """
-    found: list[Command] = []
-    at = 0
-    while at < len(line) and not line[at:].isspace():
-        head = _HEAD.match(line, at)
-        if head is None:
-            meta = _META.match(line, at)
-            if meta and meta.group(1) in META_WORDS:
-                found.append(
-                    Command("meta", None, -1, text=line[at:].strip(), column=at, lookup=lookup)
-                )
-                return found
-            if last_move is not None and re.match(r"\s*[XYZUVWABC]", line[at:]):
-                found.append(Command("G", last_move, -1, text=line[at:], column=at, lookup=lookup))
-                return found
-            raise SyntaxProblem(f"Bad command: {line[at:].strip()}")
-        if head.group(4):
-            letter, number, fraction = "T", _tool_of(head.group(5), lookup), -1
-        else:
-            letter, number = head.group(1).upper(), int(head.group(2))
-            fraction = int(head.group(3)) if head.group(3) else -1
-        start = head.end()
-        if letter == "M" and number in WHOLE_LINE and not line[start:].lstrip().startswith('"'):
-            end = len(line)
-        else:
-            end = _end_of_command(line, start)
-        found.append(
-            Command(letter, number, fraction, text=line[start:end], column=start, lookup=lookup)
-        )
-        at = end
-    return found
-
-
-def _tool_of(text: str | None, lookup: Lookup) -> int | None:
-    if text is None:
-        return None
-    if text.startswith("{"):
-        try:
-            return int(expression.evaluate(text, lookup))
-        except (expression.BadExpression, TypeError, ValueError):
-            raise SyntaxProblem("T: expected a numeric expression") from None
-    return int(text)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import operator
 import re
-from typing import Any, Callable
+from typing import Any, Callable, NamedTuple
+
+from .functions import FUNCTIONS, Literal, text_of
+
+__all__ = ["BadExpression", "arguments", "evaluate", "text_of"]
 
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)|(?P<text>"(?:[^"]|"")*")"""
     r"""|(?P<name>\#?[A-Za-z_][\w]*(?:\.[A-Za-z_]\w*|\[[^\[\]]*\])*)"""
-    r"""|(?P<sign>==|!=|<=|>=|&&|\|\||[-+*/^<>=!(){},&|]))"""
+    r"""|(?P<sign>==|!=|<=|>=|&&|\|\||[-+*/^<>=!(){},&|?:]))"""
 )
 """One token; the group that matched is its kind."""
 
@@ -17,6 +21,12 @@ _APOSTROPHE = re.compile(r"'([A-Za-z'])")
 """What an apostrophe in a text changes: the letter behind it, and itself doubled."""
 
 _LITERALS = {"true": True, "false": False, "null": None}
+
+
+def _divided(a: Any, b: Any) -> float:
+    """Return the quotient, infinite where the divisor is 0 (seen in firmware)."""
+    return float(a) / b if b else float("inf")
+
 
 _BINARY = (
     {"&&": lambda a, b: a and b, "||": lambda a, b: a or b, "&": lambda a, b: a and b},
@@ -31,7 +41,7 @@ _BINARY = (
     },
     {"^": lambda a, b: text_of(a) + text_of(b)},
     {"+": operator.add, "-": operator.sub},
-    {"*": operator.mul, "/": operator.truediv},
+    {"*": operator.mul, "/": _divided},
 )
 """Operators from the loosest binding to the tightest."""
 
@@ -39,79 +49,96 @@ _BINARY = (
 class BadExpression(ValueError):
     """An expression that can't be read or evaluated; the text is what RRF says."""
 
-
-def text_of(value: Any) -> str:
-    """Return a value as ``echo`` prints it."""
-    if value is None:
-        return "null"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list):
-        return "{" + ",".join(text_of(element) for element in value) + "}"
-    if isinstance(value, float):
-        return f"{value:.3f}".rstrip("0").rstrip(".") or "0"
-    return str(value)
+    def __init__(self, text: str, at: int | None = None, names_line: bool = False):
+        super().__init__(text)
+        self.at = at
+        """Offset in the expression, where it is known."""
+        self.names_line = names_line
+        """Whether RRF names the line besides the column."""
 
 
-def _tokens(text: str) -> list[Any]:
-    found: list[Any] = []
+class _Token(NamedTuple):
+    kind: str
+    text: str
+    at: int
+
+
+def _tokens(text: str) -> list[_Token]:
+    found: list[_Token] = []
     at = 0
     text = text.rstrip()
     while at < len(text):
         match = _TOKEN.match(text, at)
         if match is None:
-            raise BadExpression("expected an expression")
+            raise BadExpression("expected an expression", at)
         kind = match.lastgroup or ""
-        found.append((kind, match.group(kind)))
+        found.append(_Token(kind, match.group(kind), match.start(kind)))
         at = match.end()
     return found
 
 
 class _Parser:
-    def __init__(self, tokens: list[Any], lookup: Callable[[str], Any]):
-        self._tokens = tokens
+    def __init__(self, text: str, lookup: Callable[[str], Any]):
+        self._tokens = _tokens(text)
+        self._length = len(text.rstrip())
         self._at = 0
         self._lookup = lookup
 
     def _peek(self) -> str:
-        return self._tokens[self._at][1] if self._at < len(self._tokens) else ""
+        return self._tokens[self._at].text if self._at < len(self._tokens) else ""
 
-    def _take(self, wanted: str = "") -> Any:
+    def _where(self) -> int:
+        return self._tokens[self._at].at if self._at < len(self._tokens) else self._length
+
+    def _take(self, wanted: str = "") -> _Token:
         if self._at >= len(self._tokens) or (wanted and self._peek() != wanted):
-            raise BadExpression(f"expected '{wanted}'" if wanted else "expected an expression")
+            text = f"expected '{wanted}'" if wanted else "expected an expression"
+            raise BadExpression(text, self._where())
         self._at += 1
         return self._tokens[self._at - 1]
 
     def whole(self) -> Any:
-        value = self.level(0)
+        value = self.ternary()
         if self._at < len(self._tokens):
-            raise BadExpression("expected '}'")
+            raise BadExpression("expected '}'", self._where())
         return value
+
+    def ternary(self) -> Any:
+        """Return the value of ``a`` or of ``a ? b : c``."""
+        value = self.level(0)
+        if self._peek() != "?":
+            return value
+        self._take()
+        chosen = self.ternary()
+        self._take(":")
+        other = self.ternary()
+        return chosen if value else other
 
     def level(self, depth: int) -> Any:
         if depth == len(_BINARY):
             return self.unary()
         value = self.level(depth + 1)
         while self._peek() in _BINARY[depth]:
-            apply = _BINARY[depth][self._take()[1]]
+            apply = _BINARY[depth][self._take().text]
             other = self.level(depth + 1)
             try:
                 value = apply(value, other)
-            except (TypeError, ZeroDivisionError):
+            except TypeError:
                 raise BadExpression("cannot combine operands of these types") from None
         return value
 
     def unary(self) -> Any:
-        kind, text = self._take()
+        where = self._where()
+        kind, text, _ = self._take()
         if kind == "number":
-            return int(text) if text.isdigit() else float(text)
+            return int(text) if text.isdigit() else Literal.read(text)
         if kind == "text":
             # as outside of expressions (RRF 3.5 ExpressionParser.cpp, ParseQuotedString)
             return _APOSTROPHE.sub(lambda m: m[1].lower(), text[1:-1].replace('""', '"'))
         if kind == "name":
-            return _LITERALS[text] if text in _LITERALS else self._lookup(text)
+            return self._named(text, where)
         if text == "(":
-            value = self.level(0)
+            value = self.ternary()
             self._take(")")
             return value
         if text == "{":
@@ -120,17 +147,48 @@ class _Parser:
             return -self.unary()
         if text == "!":
             return not self.unary()
-        raise BadExpression("expected an expression")
+        raise BadExpression("expected an expression", where)
+
+    def _named(self, text: str, where: int) -> Any:
+        if text in _LITERALS:
+            return _LITERALS[text]
+        if self._peek() == "(" and text in (*FUNCTIONS, "exists"):
+            return self._called(text)
+        try:
+            return self._lookup(text)
+        except BadExpression as error:
+            at = where if error.names_line else where + len(text)
+            raise BadExpression(str(error), at, error.names_line) from None
+
+    def _called(self, name: str) -> Any:
+        self._take("(")
+        if name == "exists":
+            path = self._take().text
+            self._take(")")
+            return self._exists(path)
+        values = []
+        while self._peek() not in (")", ""):
+            values.append(self.ternary())
+            if self._peek() == ",":
+                self._take()
+        self._take(")")
+        return FUNCTIONS[name](*values)
+
+    def _exists(self, path: str) -> bool:
+        try:
+            return self._lookup(path) is not None
+        except BadExpression:
+            return False
 
     def braces(self) -> Any:
         """Return the value in braces; with commas an array."""
-        values = [self.level(0)]
+        values = [self.ternary()]
         is_array = False
         while self._peek() == ",":
             self._take()
             is_array = True
             if self._peek() != "}":
-                values.append(self.level(0))
+                values.append(self.ternary())
         self._take("}")
         return values if is_array else values[0]
 
@@ -138,7 +196,7 @@ class _Parser:
 def evaluate(text: str, lookup: Callable[[str], Any]) -> Any:
     """Return the value of an expression; ``lookup(path)`` gives variables and model members."""
     try:
-        return _Parser(_tokens(text), lookup).whole()
+        return _Parser(text, lookup).whole()
     except (TypeError, RecursionError):
         raise BadExpression("expected an expression") from None
 

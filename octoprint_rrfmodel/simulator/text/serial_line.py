@@ -15,10 +15,13 @@ STRING_LENGTH = 256
 """Replies that aren't long ones pass a formatter of this size, NUL included
 (RRF 3.5 Configuration.h:151)."""
 
-_NUMBERED = re.compile(r"\s*[Nn]\s*(\d+)\s*(.*)", re.DOTALL)
-"""A numbered line; groups: line number, the rest."""
+_NUMBERED = re.compile(r"\s*[Nn]\s*(\d*)\s*(.*)", re.DOTALL)
+"""A numbered line, which may lack its number; groups: line number, the rest."""
 
-_CHECKSUM = re.compile(r"\*\s*(\d+)\s*$")
+_CHECKSUM = re.compile(r"\*\s*(\d+)\s*(?:;.*)?$", re.DOTALL)
+"""A checksum at the end of a line; a comment may follow (seen in firmware)."""
+
+_MESSAGE_TYPE = re.compile(r"(?:Error|Warning): ")
 
 
 def _crc_table() -> list[int]:
@@ -58,10 +61,12 @@ class Line(NamedTuple):
 
 
 def _checksum_at(line: str) -> int:
-    """Return where ``*`` starts the checksum, -1 without; not inside quotes or braces."""
+    """Return where the first ``*`` outside quotes and braces is, -1 without.
+
+    It begins the checksum even if the text goes on behind it (seen in firmware).
+    """
     quoted = False
     depth = 0
-    found = -1
     for at, char in enumerate(line):
         if char == '"':
             quoted = not quoted
@@ -72,10 +77,10 @@ def _checksum_at(line: str) -> int:
         elif char == "}":
             depth = max(0, depth - 1)
         elif char == "*" and not depth:
-            found = at
+            return at
         elif char == ";":
             break
-    return found
+    return -1
 
 
 def parse_line(text: str, has_crc: bool = True, required: bool = False) -> Line | None:
@@ -89,7 +94,7 @@ def parse_line(text: str, has_crc: bool = True, required: bool = False) -> Line 
     numbered = _NUMBERED.match(text)
     if numbered is None:
         return None if required else Line(text, None)
-    number = int(numbered.group(1))
+    number = int(numbered.group(1) or 0)
     at = _checksum_at(text)
     if at < 0:
         return None if required else Line(numbered.group(2), number)
@@ -144,6 +149,10 @@ def _formatted(text: str) -> str:
     return data[: STRING_LENGTH - 1].decode("utf-8", "surrogateescape")
 
 
+_OK_FIRST = {Kind.TEMPERATURES: "ok ", Kind.UPLOAD: "ok\n"}
+"""What these begin with instead of ending in it."""
+
+
 def framed_marlin(reply: Reply, is_last: bool, in_macro: bool) -> str:
     """Return the characters of a reply on a channel in Marlin compatibility."""
     text, kind = reply
@@ -157,10 +166,12 @@ def framed_marlin(reply: Reply, is_last: bool, in_macro: bool) -> str:
     text = _formatted(text)
     if in_macro or not is_last:
         return text + "\n" if text else ""
-    if kind is Kind.TEMPERATURES:
-        return _formatted(f"ok {text}\n")
-    if kind is Kind.UPLOAD:
-        return _formatted(f"ok\n{text}\n")
+    head = _OK_FIRST.get(kind)
+    if head:
+        # the type of a message stands in front of the ok that the command begins with
+        found = _MESSAGE_TYPE.match(text)
+        start = found.end() if found else 0
+        return _formatted(f"{text[:start]}{head}{text[start:]}\n")
     return _formatted(f"{text}\nok\n") if text else "ok\n"
 
 

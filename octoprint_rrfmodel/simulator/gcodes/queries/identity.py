@@ -39,7 +39,9 @@ class Identity:
         return text
 
     def _diagnostics(self, channel: Channel, command: Command) -> Outcome:
-        """M122: many lines."""
+        """M122: many lines; another part than 1 that isn't there says nothing."""
+        if (command.integer("P", 0) or 0) > 1:
+            return None
         firmware, mainboard = self._firmware, self._mainboard
         minutes, seconds = divmod(int(self._clock.up_time), 60)
         hours, minutes = divmod(minutes, 60)
@@ -66,4 +68,4 @@ class Identity:
         for gcode_input in self._model.data["inputs"]:
             if gcode_input is not None:
                 lines.append(f"{gcode_input['name']} is {gcode_input['state']} in state(s) 0")
-        return Reply("\n".join(lines) + "\n", Kind.LONG)
+        return Reply("\n".join(lines), Kind.LONG)

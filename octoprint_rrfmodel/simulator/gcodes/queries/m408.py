@@ -13,6 +13,7 @@ def _legacy(status: Values, kind: int) -> str:
     """Types 0 and 1, one flat object."""
     heaters = status.heater_order()
     letter = OLD_LETTERS.get(status.letter, status.letter)
+    factors = [extruder["factor"] * 100 for extruder in status.extruders]
     fans = [fan.get("requestedValue") or 0.0 for fan in status.fans]
     parts = [
         f'"status":"{letter}"',
@@ -22,12 +23,12 @@ def _legacy(status: Values, kind: int) -> str:
         f'"hstat":{int_list([heater_number(heater["state"]) for heater in heaters])}',
         f'"pos":{number_list(status.user(), 3)}',
         f'"machine":{number_list(status.machine(), 3)}',
-        f'"sfactor":{number(status.model["move"]["speedFactor"] * 100, 2)}',
-        f'"efactor":{number_list([e["factor"] * 100 for e in status.extruders], 2)}',
+        f'"sfactor":{number(status.model["move"]["speedFactor"] * 100, status.factor_decimals)}',
+        f'"efactor":{number_list(factors, status.factor_decimals)}',
         f'"babystep":{number(status.babystep, 3)}',
         f'"tool":{status.state["currentTool"]}',
         f'"probe":"{status.probe()}"',
-        f'"fanPercent":{number_list([value * 100 for value in fans], 1)}',
+        f'"fanPercent":{_fan_percents(status, fans)}',
         f'"fanRPM":{int_list([fan.get("rpm", -1) for fan in status.fans])}',
         f'"homed":{int_list(status.homed())}',
     ]
@@ -52,6 +53,20 @@ def _legacy(status: Values, kind: int) -> str:
         f'"firmwareName":{quoted(status.mainboard.firmware_name)}',
     ]
     return "{" + ",".join(parts) + "}"
+
+
+def _fan_percents(status: Values, fans: list[float]) -> str:
+    """Return the print's fan with a decimal, then every fan there could be, -1 for none.
+
+    Seen in firmware 3.5; before 3.0 only those there are.
+    """
+    percents = [value * 100 for value in fans]
+    if not status.has_model:
+        return number_list(percents, 1)
+    most = (status.model.get("limits") or {}).get("fans") or len(fans)
+    rest = [round(value) for value in percents] + [-1] * (most - len(fans))
+    first = number(percents[0] if percents else 0.0, 1)
+    return f"[{','.join([first, *map(str, rest)])}]"
 
 
 def _message_box_flat(status: Values) -> str:

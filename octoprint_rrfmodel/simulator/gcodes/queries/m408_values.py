@@ -90,6 +90,16 @@ class Values:
         self.tools = [tool for tool in self.model.get("tools") or () if tool is not None]
 
     @property
+    def has_model(self) -> bool:
+        """Whether the firmware has an object model."""
+        return self.firmware.has_model
+
+    @property
+    def factor_decimals(self) -> int:
+        """Decimals of factors in percent (2 in a reply of 3.0, 1 seen in firmware 3.5)."""
+        return 1 if self.firmware.at_least(3, 5) else 2
+
+    @property
     def letter(self) -> str:
         return LETTERS.get(self.state["status"], "I")
 

@@ -22,7 +22,7 @@ class OldStatus:
         self._values = values
 
     def rows(self) -> Rows:
-        return {"M408": Row(self._old_status)}
+        return {"M408": Row(self._old_status, until=(3, 7))}
 
     def _old_status(self, channel: Channel, command: Command) -> Outcome:
         """M408: S0 and S1 for old panels, S2 to S4 as rr_status, S5 as rr_config."""

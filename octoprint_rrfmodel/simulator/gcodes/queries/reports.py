@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...clock import Clock
 from ...device.live_members import LiveMembers
 from ...device.motion import Motion
 from ...device.thermal import Thermal
@@ -9,7 +10,7 @@ from ...interpreter.table import Row, Rows
 from ...line.channel import Channel
 from ...line.outcome import Outcome
 from ...model.tree import ObjectModel
-from ...text.command import Command
+from ...text.command import Command, GCodeError
 from ...text.serial_line import Kind, Reply
 
 
@@ -20,11 +21,13 @@ class Reports:
         self,
         *,
         model: ObjectModel,
+        clock: Clock,
         live: LiveMembers,
         motion: Motion,
         thermal: Thermal,
     ):
         self._model = model
+        self._clock = clock
         self._live = live
         self._motion = motion
         self._thermal = thermal
@@ -40,6 +43,7 @@ class Reports:
     def _report_temperatures(self, channel: Channel, command: Command) -> Outcome:
         """M105."""
         channel.status_request = "M105"
+        channel.reported_at = self._clock.now
         return Reply(self._thermal.report(), Kind.TEMPERATURES)
 
     def _position(self, channel: Channel, command: Command) -> Outcome:
@@ -58,6 +62,7 @@ class Reports:
 
     def _endstops(self, channel: Channel, command: Command) -> Outcome:
         """M119 (RRF 3.5 EndstopsManager.cpp:519)."""
+        self._live.refresh()
         found = self._model.data["sensors"].get("endstops") or []
         states = []
         for index, axis in enumerate(self._motion.axes):
@@ -74,10 +79,13 @@ class Reports:
     def _probe_state(self) -> str:
         probes = self._model.data["sensors"].get("probes") or []
         if not probes or probes[0] is None:
-            return "not stopped"
+            return "at min stop"  # what isn't there reads as triggered (seen in firmware)
         value = (probes[0].get("value") or [0])[0]
         return "at min stop" if value >= probes[0].get("threshold", 500) else "not stopped"
 
     def _resend(self, channel: Channel, command: Command) -> Outcome:
         """M998: asks for a line again; nothing in RRF sends it by itself (3.5 GCodes2.cpp:4705)."""
-        return Reply(f"rs {command.integer('P', 0)}", Kind.TEMPERATURES)
+        number = command.integer("P")
+        if number is None:
+            raise GCodeError("missing parameter 'P'")
+        return Reply(f"rs {number}", Kind.TEMPERATURES)

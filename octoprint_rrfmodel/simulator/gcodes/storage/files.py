@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 from functools import partial
-from typing import Any
 
 from ...clock import Clock
 from ...device.card import Card
@@ -20,6 +19,10 @@ from ...line.output import Output
 from ...model.tree import ObjectModel
 from ...text.command import Command, GCodeError
 from ...text.serial_line import Kind, Reply
+
+SLOTS = 2
+GIGA = 1e9
+CLUSTER = 32768
 
 
 class Files:
@@ -41,13 +44,17 @@ class Files:
             "M30": Row(self._delete),
             "M38": Row(self._file_hash, until=(3, 5)),
             "M39": Row(self._card_information),
+            "M470": Row(self._make_folder, since=(3, 4)),
+            "M471": Row(self._rename, since=(3, 4)),
+            "M472": Row(self._delete_path, since=(3, 5)),
         }
 
     def _mount(self, channel: Channel, command: Command) -> Outcome:
         """M21."""
         slot = command.integer("P", 0) or 0
         if slot:
-            raise GCodeError(f"Cannot initialise SD card {slot}: Card not present")
+            few = slot < SLOTS
+            raise GCodeError("No SD card present" if few else "SD card number out of range")
         self._card.is_mounted = True
         self._model.volumes_changed(True)
         return "SDHC card mounted in slot 0, capacity 15.9Gb"
@@ -64,9 +71,7 @@ class Files:
 
     def _start_upload(self, channel: Channel, command: Command) -> Outcome:
         """M28: every line until M29 goes to the file and gets no ok (RRF 3.5 GCodeInput.cpp:20)."""
-        name = command.unquoted_text()
-        if not name:
-            raise GCodeError("missing filename")
+        name = command.needed_name()
         path = self._card.path_of(name)
         self._card.write(path, "", self._clock.date_time())
         channel.upload = partial(self._card.append, path)
@@ -75,18 +80,19 @@ class Files:
     def _end_upload(self, channel: Channel, command: Command) -> Outcome:
         """M29."""
         if channel.upload is None:
-            return None
+            return "GCode end-of-file being interpreted."
         channel.upload = None
         self._model.volumes_changed(True)
         return "Done saving file."
 
     def _delete(self, channel: Channel, command: Command) -> Outcome:
         """M30."""
-        name = command.unquoted_text()
-        path = self._card.path_of(name)
+        path = self._card.path_of(command.needed_name())
+        if self._job.is_printing and path.lower() == (self._job.path or "").lower():
+            self._output.text(f"Error: Cannot delete file {path} because it is open\n")
+            raise GCodeError("delete failed")
         if not self._card.delete(path):
-            self._output.text(f"Error: Failed to delete file {path}\n")
-            raise GCodeError(f"Failed to delete file {path}")
+            raise GCodeError("delete failed")
         self._model.volumes_changed(True)
         return None
 
@@ -100,16 +106,63 @@ class Files:
 
     def _card_information(self, channel: Channel, command: Command) -> Outcome:
         """M39: text, with S2 JSON."""
-        volume: dict[str, Any] | None = (self._model.data.get("volumes") or [None])[0]
-        if command.integer("S", 0) != 2:
+        slot, is_json = command.integer("P", 0) or 0, command.integer("S", 0) == 2
+        volumes = self._model.data.get("volumes") or []
+        volume = volumes[slot] if slot < len(volumes) else None
+        if volume is None or not volume["mounted"]:
+            if is_json:
+                return f'{{"SDinfo":{{"slot":{slot},"present":0}}}}'
+            raise GCodeError(f"No SD card mounted in slot {slot}")
+        capacity, free = volume["capacity"], volume["freeSpace"]
+        size = volume.get("partitionSize") or capacity
+        if is_json:
             return (
-                "SD card in slot 0: capacity 15.9Gb, partition size 15.9Gb, free space 15.7Gb, "
-                "speed 20.0MBytes/sec, cluster size 32kb"
+                f'{{"SDinfo":{{"slot":{slot},"present":1,"capacity":{capacity},'
+                f'"partitionSize":{size},"free":{free},"speed":{volume["speed"]},'
+                f'"clsize":{CLUSTER}}}}}'
             )
-        capacity = volume["capacity"] if volume else 0
-        free = volume["freeSpace"] if volume else 0
-        return Reply(
-            f'{{"SDinfo":{{"slot":0,"present":1,"capacity":{capacity},"free":{free},'
-            f'"speed":20000000,"clsize":32768}}}}\n',
-            Kind.LONG,
+        return (
+            f"SD card in slot {slot}: capacity {capacity / GIGA:.2f}GB, partition size "
+            f"{size / GIGA:.2f}GB, free space {free / GIGA:.2f}GB, "
+            f"speed {volume['speed'] / 1e6:.2f}MBytes/sec, cluster size {CLUSTER} bytes"
         )
+
+    def _make_folder(self, channel: Channel, command: Command) -> Outcome:
+        """M470."""
+        asked = command.needed_string("P")
+        path = self._card.path_of(asked)
+        if self._card.has_folder(path):
+            self._output.text(f"Error: Failed to create folder {asked}\n")
+            raise GCodeError("failed to create folder")
+        self._card.make_folder(path)
+        self._model.volumes_changed(True)
+        return None
+
+    def _rename(self, channel: Channel, command: Command) -> Outcome:
+        """M471: S the old name, T the new one; an existing file is kept unless D1."""
+        old, new = command.needed_string("S"), command.needed_string("T")
+        source, target = self._card.path_of(old), self._card.path_of(new)
+        content = self._card.read(source)
+        if content is None:
+            self._output.text(f"Error: Failed to rename file {old}: file not found\n")
+            raise GCodeError("rename failed")
+        if self._card.read(target) is not None and command.integer("D", 0) != 1:
+            there = target.partition(":")[2]
+            self._output.text(f"Error: Failed to rename file or directory {old} to {there}\n")
+            raise GCodeError("rename failed")
+        date = self._card.date(source) or self._clock.date_time()
+        self._card.delete(source)
+        self._card.write(target, content.decode("utf-8", "surrogateescape"), date)
+        self._model.volumes_changed(True)
+        return None
+
+    def _delete_path(self, channel: Channel, command: Command) -> Outcome:
+        """M472: a file or an empty folder."""
+        asked = command.needed_string("P")
+        path = self._card.path_of(asked)
+        if not self._card.delete(path):
+            why = " because it is a folder and not empty" if self._card.has_folder(path) else ""
+            self._output.text(f"Error: Failed to delete {asked}{why}\n")
+            raise GCodeError("delete failed")
+        self._model.volumes_changed(True)
+        return None

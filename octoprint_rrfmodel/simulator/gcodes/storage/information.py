@@ -12,7 +12,7 @@ from ...line.channel import Channel
 from ...line.outcome import Outcome
 from ...model.om import ModelText, encoded, quoted, with_decimals
 from ...model.tree import ObjectModel
-from ...text.command import Command
+from ...text.command import BareError, Command, GCodeError
 from ...text.serial_line import Kind, Reply
 
 THUMBNAIL_BYTES = 1024
@@ -34,6 +34,9 @@ FIELDS = (
 )
 """Members of M36 in the order they are printed."""
 
+HEIGHTS = ("height", "firstLayerHeight", "layerHeight")
+"""Printed with decimals even where they are 0."""
+
 
 class Information:
     """Tells about files, and gives their thumbnails."""
@@ -52,26 +55,34 @@ class Information:
 
     def _tell(self, channel: Channel, command: Command) -> Outcome:
         """M36: file information; without a name of the file being printed."""
+        if command.fraction > 0:
+            raise GCodeError("Command is not supported")
         name = command.unquoted_text()
+        shown = name
         if name:
             path = self._card.path_of(name)
             found = self._card.name_of(path)
             extra = ""
         else:
-            found = self._job.path
-            path, extra = found or "", f',"printDuration":{int(self._job.duration)}'
+            found = self._job.path if self._job.is_printing else None
+            path = shown = found or ""
+            extra = f'"printDuration":{int(self._job.duration)},'
         content = self._card.read(found) if found else None
         if found is None or content is None:
-            return Reply(f'{{"err":1,"fileName":{quoted(name)}}}\n', Kind.LONG)
+            return f'{{"err":1,"fileName":{quoted(name)}}}'
         info = self._model.members_of(file_info(path, content, self._card.date(found)), "job.file")
-        return Reply(self._text_of(info) + extra + "}\n", Kind.LONG)
+        info["fileName"] = shown
+        return Reply(self._text_of(info, extra) + "}\n", Kind.LONG)
 
-    def _text_of(self, info: dict[str, Any]) -> str:
+    def _text_of(self, info: dict[str, Any], extra: str) -> str:
+        """Return the members; the name is the one asked for (seen in firmware)."""
         shown = with_decimals(info, self._model_text.decimals["job"]["file"])
         text = '{"err":0'
         for field in FIELDS:
-            if field in shown and shown[field] not in (None, []) or field == "filament":
-                text += f",{quoted(field)}:{encoded(shown[field])}"
+            if field not in shown or shown[field] is None and field != "generatedBy":
+                continue
+            before = extra if field == "thumbnails" else ""
+            text += f",{before}{quoted(field)}:{_shown(field, shown[field])}"
         return text
 
     def _thumbnail(self, channel: Channel, command: Command) -> Outcome:
@@ -79,6 +90,10 @@ class Information:
 
         3.5 RepRap.cpp, GetThumbnailResponse; 3.4 and later.
         """
+        if "P" not in command:
+            raise BareError("M36: missing parameter 'P'")
+        if "S" not in command:
+            raise BareError("M36: missing parameter 'S'")
         name, start = command.string("P") or "", command.integer("S", 0) or 0
         content = self._card.read(self._card.path_of(name))
         head = f'{{"thumbnail":{{"fileName":{quoted(name)},"offset":{start},'
@@ -101,3 +116,9 @@ class Information:
                 position = before + line.index(letters) + room
             data += letters[:room].decode("latin-1")
         return Reply(f'{head}"data":"{data}","next":{position},"err":{error}}}}}\n', Kind.LONG)
+
+
+def _shown(field: str, value: Any) -> str:
+    if field in HEIGHTS and not value:
+        return "0.00"
+    return encoded("" if value is None else value)

@@ -14,6 +14,8 @@ from ...text.serial_line import Kind, Reply
 LIST_BYTES = 2600
 """Text length at which a listing goes on with ``next``: the buffers aren't endless."""
 NOT_MOUNTED, NO_FOLDER = 1, 2
+SLOT = "0:"
+"""How the paths of the only card begin."""
 
 
 class Listing:
@@ -34,12 +36,13 @@ class Listing:
         asked = _folder(command)
         path = self._card.path_of(asked)
         if kind not in (2, 3):
-            names = "".join(f"{entry.name}\n" for entry in self._card.entries(path))
+            entries = self._card.entries(path) if self._card.is_mounted else ()
+            names = "".join(f"{entry.name}\n" for entry in entries)
             text = names or "NONE\n"
             return Reply(text, Kind.FILE_LIST) if channel.is_marlin else Reply(text, Kind.LONG)
         first = command.integer("R", 0) or 0
         error = 0
-        if not self._card.is_mounted:
+        if not self._card.is_mounted or not path.startswith(SLOT):
             error = NOT_MOUNTED
         elif not self._card.has_folder(path):
             error = NO_FOLDER
@@ -50,21 +53,26 @@ class Listing:
 
     def _names(self, asked: str, path: str, first: int, error: int) -> str:
         if error:
-            return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
+            return _refused(asked, first, error)
         parts = [quoted(("*" if e.is_folder else "") + e.name) for e in self._card.entries(path)]
         head = f'{{"dir":{quoted(asked)},"first":{first},"files":['
         return _page(head, parts, first, ',"err":0')
 
     def _details(self, asked: str, path: str, first: int, error: int) -> str:
         if error:
-            return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"next":0,"err":{error}}}'
+            return _refused(asked, first, error)
         parts = [_detail(entry) for entry in self._card.entries(path)]
         return _page(f'{{"dir":{quoted(asked)},"first":{first},"files":[', parts, first, "")
 
 
 def _folder(command: Command) -> str:
     """Return the folder as asked for, with a slash at the end only if it came with one."""
-    return command.string("P") or "0:/gcodes/"
+    return command.loose_string("P") or "0:/gcodes/"
+
+
+def _refused(asked: str, first: int, error: int) -> str:
+    """Return an error, which names no page to go on with (seen in firmware)."""
+    return f'{{"dir":{quoted(asked)},"first":{first},"files":[],"err":{error}}}'
 
 
 def _page(head: str, parts: list[str], first: int, tail: str) -> str:
@@ -79,6 +87,7 @@ def _page(head: str, parts: list[str], first: int, tail: str) -> str:
 
 
 def _detail(entry: Entry) -> str:
-    size = "" if entry.is_folder else f'"size":{entry.size},'
     kind = "d" if entry.is_folder else "f"
-    return f'{{"type":"{kind}","name":{quoted(entry.name)},{size}"date":"{entry.date}"}}'
+    return (
+        f'{{"type":"{kind}","name":{quoted(entry.name)},"size":{entry.size},"date":"{entry.date}"}}'
+    )

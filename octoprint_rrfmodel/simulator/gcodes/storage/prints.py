@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ...clock import Clock
 from ...device import job as jobs
 from ...device.card import Card
 from ...device.job import Job
@@ -11,11 +10,10 @@ from ...device.motion import Motion
 from ...interpreter.macros import Macros
 from ...interpreter.table import Row, Rows
 from ...line.channel import Channel
-from ...line.outcome import Outcome, Running
+from ...line.outcome import Outcome, Running, Silently
+from ...line.output import Output
 from ...text.command import Command, GCodeError
 
-PAUSE_SECONDS = 2.0
-CANCEL_SECONDS = 2.0
 ONLY_IN_FILE = "use M226 and M601 only within a file being printed"
 
 
@@ -28,14 +26,15 @@ class Prints:
         job: Job,
         card: Card,
         motion: Motion,
-        clock: Clock,
         macros: Macros,
         live: LiveMembers,
+        output: Output,
     ):
         self._job = job
         self._card = card
         self._motion = motion
-        self._clock = clock
+        self._output = output
+        self._paused_at: list[float] = []
         self._macros = macros
         self._live = live
 
@@ -51,25 +50,24 @@ class Prints:
             "M27": Row(self._tell_progress),
             "M32": Row(self._select_and_start),
             "M37": Row(self._simulate),
-            "M125": Row(self._pause_print),
             "M226": Row(self._pause_from_file),
             "M486": Row(self._objects, since=(3, 1)),
             "M600": Row(self._pause_from_file),
             "M601": Row(self._pause_from_file, since=(3, 1)),
         }
 
-    def _open(self, command: Command, name: str) -> None:
+    def _open(self, name: str) -> None:
         if self._job.is_printing:
             raise GCodeError("Cannot set file to print, because a file is already being printed")
         found = self._card.name_of(self._card.path_of(name))
         content = self._card.read(found) if found else None
         if found is None or content is None:
-            raise GCodeError(f'GCode file "{name}" not found')
+            raise GCodeError(f'GCode file "{name}" not found\n')
         self._job.select(found, content)
 
     def _select_file(self, channel: Channel, command: Command) -> Outcome:
         """M23: name and size aren't told."""
-        self._open(command, command.unquoted_text())
+        self._open(command.needed_name())
         return "File opened\nFile selected"
 
     def _select_and_start(self, channel: Channel, command: Command) -> Outcome:
@@ -80,10 +78,12 @@ class Prints:
 
     def _simulate(self, channel: Channel, command: Command) -> Outcome:
         """M37: goes through a file without moving; tells the time at the end."""
-        name = command.string("P")
-        if name is None:
-            return "Not simulating"
-        self._open(command, name)
+        if "P" not in command:
+            mode = command.integer("S")
+            if mode is not None:
+                return None
+            return "Simulation mode: off, move time: 0.0 sec, other time: 0.0 sec"
+        self._open(command.needed_string("P"))
         self._job.start(simulate=True)
         return None
 
@@ -106,9 +106,12 @@ class Prints:
     def _resume(self, channel: Channel) -> Running:
         self._job.state = jobs.RESUMING
         with self._macros.running(channel):
-            yield from self._macros.system(channel, "resume.g")
-            yield self._clock.after(PAUSE_SECONDS)
-            yield self._motion.has_stopped
+            if self._motion.is_homed:
+                yield from self._macros.system(channel, "resume.g")
+            yield Silently(self._motion.has_stopped)
+            # back to where the print was (RRF 3.5 GCodes4.cpp, resuming2)
+            self._motion.go_back(self._paused_at)
+            yield Silently(self._motion.has_stopped)
         self._job.state = jobs.PRINTING
         return "Printing resumed"
 
@@ -120,20 +123,28 @@ class Prints:
         return self._pause(channel)
 
     def _pause(self, channel: Channel) -> Running:
-        self._job.state = jobs.PAUSING
+        """Stop behind the moves in the queue, whatever the file waits for (seen in firmware)."""
+        job = self._job
+        job.state = jobs.PAUSING
+        if channel.name != "File":
+            if not job.can_be_interrupted:
+                yield Silently(job.has_run_all)
+            job.interrupt()
+        self._output.text("Resume state saved\n")
         self._live.refresh()
         self._motion.save_restore_point(1)
+        yield Silently(self._motion.has_stopped)
+        self._live.refresh()
+        self._paused_at = self._motion.target()
         where = " ".join(
             f"{axis['letter']}{axis['userPosition']:.1f}" for axis in self._motion.axes
         )
-        if channel.name != "File":
-            yield self._job.has_run_all
-        yield self._motion.has_stopped
         with self._macros.running(channel):
-            yield from self._macros.system(channel, "pause.g")
-            yield self._clock.after(PAUSE_SECONDS)
-            yield self._motion.has_stopped
-        self._job.state = jobs.PAUSED
+            # only where all axes are homed (RRF 3.5 GCodes4.cpp, seen in firmware)
+            if self._motion.is_homed:
+                yield from self._macros.system(channel, "pause.g")
+            yield Silently(self._motion.has_stopped)
+        job.state = jobs.PAUSED
         return f"Printing paused at {where}"
 
     def _stop(self, channel: Channel, command: Command) -> Outcome:
@@ -147,14 +158,13 @@ class Prints:
 
     def _end(self) -> Running:
         yield self._motion.has_stopped
-        self._clock.when(lambda: True, lambda: self._job.finish(cancelled=False))
+        self._job.end_after_this()
 
     def _cancel(self, channel: Channel) -> Running:
         self._job.state = jobs.CANCELLING
         with self._macros.running(channel):
-            yield self._motion.has_stopped
+            yield Silently(self._motion.has_stopped)
             yield from self._macros.system(channel, "cancel.g")
-            yield self._clock.after(CANCEL_SECONDS)
         self._job.finish(cancelled=True)
 
     def _set_position(self, channel: Channel, command: Command) -> Outcome:
@@ -181,17 +191,17 @@ class Prints:
     def _objects(self, channel: Channel, command: Command) -> Outcome:
         """M486: T count, S current, A name, P cancel, U resume, C cancel the current one."""
         job = self._job
-        if not job.is_printing:
-            if "P" in command or "U" in command or "C" in command:
-                raise GCodeError("No print in progress")
-            return None
+        if not command.raw:
+            return job.objects.told()
         number = command.integer("S")
         if number is not None:
-            job.name_object(number, command.string("A") if "A" in command else None)
+            job.objects.name(number, command.string("A") if "A" in command else None)
         if "C" in command:
-            job.cancel_object(job.current_object, True)
+            if not job.objects.cancel(job.objects.current, True):
+                raise GCodeError("Object number out of range")
+            return f"Object {job.objects.current} cancelled"
         for letter, cancelled in (("P", True), ("U", False)):
             wanted = command.integer(letter)
-            if wanted is not None and not job.cancel_object(wanted, cancelled):
+            if wanted is not None and not job.objects.cancel(wanted, cancelled):
                 raise GCodeError("Object number out of range")
         return None
