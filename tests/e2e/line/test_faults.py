@@ -129,6 +129,8 @@ EXPECTED = {
     "error_reply": Expected(replies(6), argument=":2"),
     "sbc": Expected(has_value("network.name", "Changed")),
     "baud": Expected(replies(3)),
+    # OctoPrint reads all the time
+    "unread": Expected(replies(3)),
     # nothing but a reset helps a board against it; see below
     "usb_box_stuck": None,
 }
