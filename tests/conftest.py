@@ -13,7 +13,6 @@ import pytest
 
 from tests.support import broker as mqtt
 from tests.support import browser as chromium
-from tests.support import waiting
 from tests.support.places import ROOT
 
 # a busy machine makes single examples slow, and a failure has to be the same one when run again
@@ -259,8 +258,7 @@ def browser():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
     from playwright.sync_api import expect, sync_playwright
 
-    # who waits longer only loses time where the test fails anyway
-    expect.set_options(timeout=waiting.within(30) * 1000)
+    expect.set_options(timeout=chromium.PATIENCE_MS)
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS

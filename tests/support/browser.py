@@ -25,8 +25,8 @@ FLAGS = [
 
 SIZE = {"width": 1280, "height": 900}
 
-# the first page builds OctoPrint's asset bundles
-PAGE_TIMEOUT_MS = 60_000
+# the first page builds OctoPrint's asset bundles; who waits longer only loses time where it fails
+PATIENCE_MS = 180_000
 
 
 def new_page(context: Any, errors: list[str]) -> Any:
@@ -37,6 +37,7 @@ def new_page(context: Any, errors: list[str]) -> Any:
             errors.append(f"{message.text} ({message.location.get('url')})")
 
     page = context.new_page()
+    page.set_default_timeout(PATIENCE_MS)
     page.on("pageerror", lambda error: errors.append(error.stack or str(error)))
     page.on("console", from_console)
     return page
@@ -46,13 +47,13 @@ def open_octoprint(page: Any, server: OctoPrintServer, user: User | None, path: 
     """Show OctoPrint's page as that user and return once its interface is usable."""
     if user is not None:
         _log_in(page, server, user)
-    page.goto(server.url + path, timeout=PAGE_TIMEOUT_MS)
+    page.goto(server.url + path, timeout=PATIENCE_MS)
     wait_usable(page)
 
 
 def wait_usable(page: Any) -> None:
     """Return once OctoPrint's interface has replaced what is seen while it loads."""
-    page.locator("#page-container-loading").wait_for(state="hidden", timeout=PAGE_TIMEOUT_MS)
+    page.locator("#page-container-loading").wait_for(state="hidden", timeout=PATIENCE_MS)
 
 
 def _log_in(page: Any, server: OctoPrintServer, user: User) -> None:

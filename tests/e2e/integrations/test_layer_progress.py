@@ -11,7 +11,7 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
+pytestmark = pytest.mark.slow
 
 HERE = Path(plugins.__file__).parent
 LISTENER = HERE / "eventlistener.py"

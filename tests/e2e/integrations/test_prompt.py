@@ -70,8 +70,8 @@ def test_dialog_answers(server, connect, firmware, choice, command, answer):
         press(server, choice)
         server.wait_for(lambda: board.board.boxes.answers == [answer], 10, "the answer")
         helpers.wait_value(server, "state.messageBox", None, 10)
+        server.wait_for(lambda: pushed(push)[-1] == CLOSED, 10, "the dialog to close")
         assert pushed(push).count(SHOWN) == 1
-        assert pushed(push)[-1] == CLOSED
     sent = helpers.commands(board)
     assert [line for line in sent if line.startswith("M292")] == [command]
     assert not [line for line in sent if line.startswith("M876")]

@@ -14,7 +14,6 @@ from .. import helpers
 
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line"),
-    pytest.mark.timeout(300),
 ]
 
 

@@ -8,7 +8,6 @@ pytestmark = [
     pytest.mark.both_hosts(
         "each has its own code for the serial line", once_for=("fault", "firmware", "counts")
     ),
-    pytest.mark.timeout(300),
 ]
 
 

@@ -10,7 +10,6 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 HEATING_SECONDS = 18

@@ -7,7 +7,6 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("board",)),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 FIRMWARE = ("3.5.1", "3.5.3")

@@ -11,7 +11,6 @@ from .. import helpers
 
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
-    pytest.mark.timeout(300),
 ]
 
 

@@ -13,7 +13,6 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("line",)),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 BLOCKING_BOX = 'M291 P"Is it S1 there?" R"Look" S3'

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import waiting
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 
@@ -36,7 +36,7 @@ def show_view(page, view):
 
 def _seen(page, view):
     region = page.locator(f"#rrfmodel_{view}")
-    region.locator("visible=true").first.wait_for(timeout=45_000)
+    region.locator("visible=true").first.wait_for(timeout=PATIENCE_MS)
     return region
 
 
@@ -47,7 +47,7 @@ def part(region, name):
 
 def wait_text(locator, wanted, seconds=SECONDS):
     """Return the element's text once it has ``wanted`` in it."""
-    expect(locator).to_contain_text(wanted, timeout=seconds * 1000)
+    expect(locator).to_contain_text(wanted, timeout=waiting.within(seconds) * 1000)
     return locator.inner_text()
 
 

@@ -4,11 +4,9 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import wait_usable
+from tests.support.browser import PATIENCE_MS, wait_usable
 
 from . import both_hosts, open_view, own_errors, part, show_view, styled, wait_text
-
-pytestmark = pytest.mark.timeout(240)
 
 MARKUP = "<img src=x onerror=alert(1)>"
 
@@ -65,7 +63,9 @@ def drawn_view(page):
 
 def wait_drawn(page, fits):
     """Return what is drawn once it is as wanted."""
-    page.wait_for_function("() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')", timeout=45_000)
+    page.wait_for_function(
+        "() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')", timeout=PATIENCE_MS
+    )
     for _ in range(180):
         drawn = page.evaluate(DRAWN)
         if fits(drawn):
@@ -135,7 +135,7 @@ def test_chosen_series_are_kept(own_page, server):
     wait_drawn(page, lambda drawn: len(drawn) == shown)
     page.reload()
     wait_usable(page)
-    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked(timeout=45_000)
+    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked(timeout=PATIENCE_MS)
     expect(part(row(view, "heater0"), "show-current")).not_to_be_checked()
     wait_drawn(page, lambda drawn: len(drawn) == shown)
 
@@ -194,7 +194,7 @@ def test_values_under_the_pointer(page, view):
     page.mouse.move(box["x"] + box["width"] * 0.8, box["y"] + 50)
     wait_text(part(view, "time"), ":")
     page.mouse.move(0, 0)
-    expect(part(view, "time")).to_contain_text("Latest", timeout=45_000)
+    expect(part(view, "time")).to_contain_text("Latest")
 
 
 def test_text_of_the_printer_is_text(view, board, page_errors):
@@ -236,6 +236,6 @@ def test_narrow(page, view):
                 const region = document.querySelector("#rrfmodel_chart");
                 return region.scrollWidth <= region.clientWidth;
             }""",
-            timeout=45_000,
+            timeout=PATIENCE_MS,
         )
         assert page.evaluate(WIDTH) < 440

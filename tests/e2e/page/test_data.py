@@ -1,6 +1,5 @@
 """The page's data in whatever order they come: replies that are late, and pushes before them."""
 
-import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
@@ -8,8 +7,6 @@ from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import SECONDS, TOLD, both_hosts, own_errors, part
-
-pytestmark = pytest.mark.timeout(240)
 
 BOARD = {"machine": "cartesian"}
 

@@ -1,12 +1,11 @@
 """The emergency stop of the tab: asked about, sent past what is printed, and its way back."""
 
-import pytest
 from playwright.sync_api import expect
+
+from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
 from . import CONFIRM, both_hosts, home, part
-
-pytestmark = pytest.mark.timeout(300)
 
 BOARD = {"machine": "cartesian", "speed": 5}
 
@@ -53,6 +52,6 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     server.wait_for(lambda: board.board.is_halted, 45, "the machine to be halted")
     # the way back is offered
     fix = page.locator("[data-test=rrfmodel-sidebar] [data-test=fix]")
-    fix.filter(has_text="Restart the machine").click(timeout=60_000)
+    fix.filter(has_text="Restart the machine").click(timeout=PATIENCE_MS)
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
     helpers.wait_ready(server, 90)

@@ -5,12 +5,10 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, READER
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 from . import SECONDS, both_hosts, open_view, own_errors, part, show_view, styled
-
-pytestmark = pytest.mark.timeout(240)
 
 VIEWS = ("machine", "job", "chart", "model")
 
@@ -116,7 +114,7 @@ def test_each_sub_view_has_its_address(own_page, server, page_errors):
     page.go_back()
     page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for()
     page.reload()
-    page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for(timeout=60_000)
+    page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for(timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 

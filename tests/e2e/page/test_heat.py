@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
+from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
 from . import (
@@ -19,8 +20,6 @@ from . import (
     wait_board,
     wait_text,
 )
-
-pytestmark = pytest.mark.timeout(240)
 
 DEAF = "OctoPrint.coreui.viewmodels.rrfModelViewModel.onDataUpdaterPluginMessage = () => undefined"
 """Nothing that the server pushes reaches the page, as while a long command keeps the line."""
@@ -128,7 +127,7 @@ def test_each_heater_of_a_tool_has_its_own_temperature(view, server, board):
     board.board.execute("M568 P2 S210:190 R150:140", channel="http")
     tool = part(view, "tool").nth(2)
     expect(part(tool, "active")).to_have_count(2)
-    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=45_000)
+    expect(part(tool, "active").nth(1)).to_have_value("190", timeout=PATIENCE_MS)
     type_number(part(tool, "active").nth(0), 215)
     wait_board(server, board, "tools[2].active", [215, 190])
     type_number(part(tool, "standby").nth(1), 130)
@@ -136,7 +135,7 @@ def test_each_heater_of_a_tool_has_its_own_temperature(view, server, board):
     # one that is off doesn't keep the others from being set
     with board.board.lock:
         board.board.data["tools"][2]["active"] = [215, -273.1]
-    expect(part(tool, "active").nth(1)).to_have_value("", timeout=45_000)
+    expect(part(tool, "active").nth(1)).to_have_value("", timeout=PATIENCE_MS)
     type_number(part(tool, "active").nth(0), 220)
     wait_board(server, board, "tools[2].active", [220, 0])
     # a fault of any of them is the tool's

@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
+from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
 from . import (
@@ -19,8 +20,6 @@ from . import (
     wait_board,
     wait_text,
 )
-
-pytestmark = pytest.mark.timeout(240)
 
 MARKUP = "<img src=x onerror=alert(1)>"
 
@@ -105,7 +104,7 @@ def confirm(page):
 
 @both_hosts
 def test_tells_of_file_progress_and_times(view, server):
-    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=45_000)
+    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=PATIENCE_MS)
     wait_text(part(view, "status"), "Printing")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     wait_text(part(view, "filament"), "1.50 m + 0.25 m")
@@ -116,7 +115,7 @@ def test_tells_of_file_progress_and_times(view, server):
     for name in ("left-file", "left-slicer", "left-simulation", "duration", "warmUp", "paused"):
         wait_text(part(view, name), "0:0")
     before = part(view, "duration").inner_text()
-    expect(part(view, "duration")).not_to_have_text(before, timeout=45_000)
+    expect(part(view, "duration")).not_to_have_text(before, timeout=PATIENCE_MS)
     assert float(part(view, "progress").get_attribute("aria-valuenow")) >= 0
     wait_text(part(view, "percent"), "%")
 
@@ -125,9 +124,9 @@ def test_layers_as_a_chart(own_page, server, idle):
     page = own_page
     begin(server, idle)
     view = open_view(page, server, ADMIN, "job")
-    part(view, "layers").wait_for(state="visible", timeout=45_000)
+    part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
     drawn = """() => $("#rrfmodel_job .rrfmodel-plot").data("plot").getData()[0].data"""
-    page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=45_000)
+    page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=PATIENCE_MS)
     layers = page.evaluate(drawn)
     assert [layer for layer, _ in layers] == list(range(1, len(layers) + 1))
     # the first one may have begun with the file's head
@@ -146,8 +145,8 @@ def test_layers_as_a_chart(own_page, server, idle):
     page.mouse.move(left, top)
     wait_text(part(view, "layer-facts"), "Layer 1:")
     page.reload()
-    part(view, "layers").wait_for(state="visible", timeout=60_000)
-    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=45_000)
+    part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
+    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=PATIENCE_MS)
 
 
 @both_hosts
@@ -168,7 +167,7 @@ def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     part(view, "cancel").click()
     confirm(page)
     server.wait_for(lambda: not board.board.job.is_printing, 45, "the job to end")
-    expect(part(view, "pause")).to_be_hidden(timeout=45_000)
+    expect(part(view, "pause")).to_be_hidden(timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 
@@ -188,7 +187,7 @@ def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, vie
 
 def test_objects(page, view, server, board):
     objects = part(view, "object")
-    expect(objects).to_have_count(2, timeout=45_000)
+    expect(objects).to_have_count(2, timeout=PATIENCE_MS)
     expect(part(objects, "name")).to_have_text(list(NAMES))
     wait_text(objects.nth(0), "X 80…120")
     part(objects.nth(1), "object-cancel").click()
@@ -197,7 +196,7 @@ def test_objects(page, view, server, board):
     wait_text(part(objects.nth(1), "state"), "left out")
     part(objects.nth(1), "object-resume").click()
     wait_board(server, board, "job.build.objects[1].cancelled", False)
-    expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=45_000)
+    expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=PATIENCE_MS)
 
 
 def test_last_job_is_started_again_and_simulated(page, server, idle):
@@ -210,9 +209,9 @@ def test_last_job_is_started_again_and_simulated(page, server, idle):
     confirm(page)
     server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
     assert idle.board.job.path == "0:/gcodes/parts/clip.gcode"
-    expect(part(view, "last")).to_have_count(0, timeout=45_000)
+    expect(part(view, "last")).to_have_count(0, timeout=PATIENCE_MS)
     end_job(server, idle)
-    part(view, "simulate-last").click(timeout=45_000)
+    part(view, "simulate-last").click(timeout=PATIENCE_MS)
     server.wait_for(lambda: idle.board.job.is_simulation, 45, "the simulation")
 
 
@@ -222,10 +221,10 @@ def test_nothing_is_started_without_the_motors_supply(page, server, idle):
     expect(part(view, "start")).to_be_visible()
     idle.board.inject("vin_off")
     try:
-        expect(part(view, "start")).to_be_hidden(timeout=45_000)
+        expect(part(view, "start")).to_be_hidden(timeout=PATIENCE_MS)
     finally:
         idle.board.clear("vin_off")
-    expect(part(view, "start")).to_be_visible(timeout=45_000)
+    expect(part(view, "start")).to_be_visible(timeout=PATIENCE_MS)
 
 
 def test_selected_file_is_started(page, server, idle):
@@ -235,14 +234,14 @@ def test_selected_file_is_started(page, server, idle):
     part(view, "start").click()
     confirm(page)
     server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
-    expect(part(view, "start")).to_be_hidden(timeout=45_000)
+    expect(part(view, "start")).to_be_hidden(timeout=PATIENCE_MS)
 
 
 def test_picture(page, server, idle, page_errors):
     begin(server, idle)
     view = show_view(page, "job")
     picture = part(view, "picture")
-    expect(picture).to_be_visible(timeout=45_000)
+    expect(picture).to_be_visible(timeout=PATIENCE_MS)
     assert picture.evaluate("image => [image.naturalWidth, image.naturalHeight]") == [1, 1]
     assert own_errors(page_errors) == []
 
@@ -260,7 +259,7 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
     view = show_view(page, "job")
-    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=45_000)
+    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=PATIENCE_MS)
     wait_text(part(view, "object").nth(0), MARKUP)
     assert view.locator("img:not([data-test=picture]), b").count() == 0
     part(view.locator("[data-test=object]").nth(0), "object-cancel").click()
@@ -275,7 +274,7 @@ def test_a_reader_sees_and_can_do_nothing(reader_page, server, idle, page_errors
     wait_text(part(view, "file"), "clip.gcode")
     for name in ("pause", "cancel"):
         expect(part(view, name)).to_be_disabled()
-    expect(part(view, "object-cancel").first).to_be_disabled(timeout=45_000)
+    expect(part(view, "object-cancel").first).to_be_disabled(timeout=PATIENCE_MS)
     assert idle.board.job.is_running
     assert own_errors(page_errors) == []
 
@@ -288,7 +287,7 @@ def test_a_refusal_is_told(page, view, server, board):
     )
     part(view, "pause").click()
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
-        "The machine has no job.", timeout=45_000
+        "The machine has no job.", timeout=PATIENCE_MS
     )
 
 
@@ -316,13 +315,13 @@ def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle)
 def test_narrow(page, view):
     page.set_viewport_size({"width": 480, "height": 900})
     with styled(page, "#rrfmodel_job { width: 440px; }"):
-        part(view, "layers").wait_for(state="visible", timeout=45_000)
+        part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
         # the drawing follows the width a little later
         page.wait_for_function(
             """() => {
                 const region = document.querySelector("#rrfmodel_job");
                 return region.scrollWidth <= region.clientWidth;
             }""",
-            timeout=45_000,
+            timeout=PATIENCE_MS,
         )
         expect(part(view, "pause")).to_be_visible()

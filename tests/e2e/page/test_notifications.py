@@ -4,12 +4,10 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 from . import SECONDS, TOLD, both_hosts, own_errors, part
-
-pytestmark = pytest.mark.timeout(240)
 
 BOARD = {"machine": "cartesian"}
 
@@ -30,18 +28,18 @@ def test_why_a_print_is_paused_is_told_once(page, told, server, board, page_erro
     board.board.inject("heater_fault:1")
     server.wait_state("Paused", 40)
     about = told.filter(has_text="Heater 1 reports a fault")
-    expect(about).to_have_count(1, timeout=45_000)
+    expect(about).to_have_count(1, timeout=PATIENCE_MS)
     expect(about).to_contain_text("The print was paused.")
     helpers.wait_polls(server, 3)
     expect(about).to_have_count(1)
     # without a print it is the heater's fault alone
     server.post("/api/job", json={"command": "cancel"})
     server.wait_state("Operational", 60)
-    expect(told.filter(has_text="paused")).to_have_count(0, timeout=45_000)
+    expect(told.filter(has_text="paused")).to_have_count(0, timeout=PATIENCE_MS)
     expect(about).to_have_count(1)
     board.board.clear("heater_fault")
     board.board.execute("M562 P1", channel="http")
-    expect(about).to_have_count(0, timeout=45_000)
+    expect(about).to_have_count(0, timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 
@@ -50,10 +48,10 @@ def test_what_the_display_shows_is_one_notification(page, told, server, board):
     for layer in range(1, 5):
         board.board.execute(f'M117 "Layer {layer} <b>"', channel="http")
         about = told.filter(has_text="Layer")
-        expect(about).to_have_text(f"Layer {layer} <b>", timeout=45_000)
+        expect(about).to_have_text(f"Layer {layer} <b>", timeout=PATIENCE_MS)
         expect(about).to_have_count(1)
     board.board.execute('M117 ""', channel="http")
-    expect(told.filter(has_text="Layer")).to_have_count(0, timeout=45_000)
+    expect(told.filter(has_text="Layer")).to_have_count(0, timeout=PATIENCE_MS)
     # and none is kept behind the page's back
     page.wait_for_function("(kept) => PNotify.notices.length <= kept", arg=kept)
 
@@ -62,11 +60,11 @@ def test_what_the_display_shows_is_one_notification(page, told, server, board):
 def test_a_refusal_comes_in_the_language_of_the_page(own_page, server):
     page = own_page
     open_octoprint(page, server, ADMIN, "/?l10n=de")
-    part(page, "status").first.wait_for(timeout=45_000)
+    part(page, "status").first.wait_for(timeout=PATIENCE_MS)
     response = server.post("/api/printer/printhead", json={"command": "jog", "x": 5})
     assert response.status_code == 204
     told = page.locator(TOLD)
-    expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1, timeout=45_000)
+    expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1, timeout=PATIENCE_MS)
 
 
 @pytest.fixture
@@ -82,6 +80,6 @@ def with_macro(server, board, board_factory):
 def test_a_box_that_nobody_can_answer_is_told(told, server, with_macro):
     server.commands('M98 P"0:/macros/ask.g"')
     about = told.filter(has_text="does not take over USB")
-    expect(about).to_have_count(1, timeout=45_000)
+    expect(about).to_have_count(1, timeout=PATIENCE_MS)
     helpers.disconnect(server)
-    expect(about).to_have_count(0, timeout=45_000)
+    expect(about).to_have_count(0, timeout=PATIENCE_MS)

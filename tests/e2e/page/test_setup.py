@@ -4,13 +4,11 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 from . import SECONDS, both_hosts, own_errors, part, wait_text
 from .wizard import PROFILE, SHOW, command, setup
-
-pytestmark = pytest.mark.timeout(240)
 
 BOARD = {"machine": "corexy"}
 
@@ -26,7 +24,7 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     assert helpers.status(server)["first_run"] is True
     open_octoprint(own_page, server, ADMIN)
     wizard = own_page.locator("#rrfmodel_wizard_dialog")
-    expect(wizard).to_be_visible(timeout=45_000)
+    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
     expect(part(wizard, "needed")).to_have_count(4)
     part(wizard, "set-needed").click()
     wait_text(part(wizard, "needed-state").last, "as needed")
@@ -97,7 +95,7 @@ def test_settings_page(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=45_000)
+    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
     expect(part(pane, "difference")).to_have_count(len(setup(server)["profile"]))
@@ -111,7 +109,7 @@ def test_what_was_unticked_stays_so(own_page, server):
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
     ticks = pane.locator("[data-test=difference] input")
-    ticks.first.wait_for(timeout=45_000)
+    ticks.first.wait_for(timeout=PATIENCE_MS)
     ticks.first.uncheck()
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
@@ -125,12 +123,12 @@ def test_settings_page_that_is_open_when_the_machine_comes(own_page, server, boa
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=45_000)
+    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
     expect(part(pane, "difference")).to_have_count(0)
     helpers.connect(server, board, SECONDS)
-    expect(part(pane, "difference")).not_to_have_count(0, timeout=45_000)
+    expect(part(pane, "difference")).not_to_have_count(0, timeout=PATIENCE_MS)
     helpers.disconnect(server)
-    expect(part(pane, "difference")).to_have_count(0, timeout=45_000)
+    expect(part(pane, "difference")).to_have_count(0, timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 
@@ -146,7 +144,7 @@ def test_rows_of_the_sidebar_fold_away(own_page, server, without_axes):
     assert command(server, command="wizard_done").status_code == 204
     open_octoprint(own_page, server, ADMIN)
     sidebar = own_page.locator("[data-test=rrfmodel-sidebar]")
-    part(sidebar, "heater").first.wait_for(timeout=45_000)
+    part(sidebar, "heater").first.wait_for(timeout=PATIENCE_MS)
     # the whole model is there
     expect(part(sidebar, "sidebar-fan")).not_to_have_count(0)
     expect(part(sidebar, "axis")).to_have_count(0)

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import User
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 from . import both_hosts, own_errors, part, wait_text
@@ -32,7 +32,7 @@ def sidebar(page):
 
 def shown(page):
     found = part(page, "rrfmodel-sidebar")
-    found.wait_for(state="visible", timeout=45_000)
+    found.wait_for(state="visible", timeout=PATIENCE_MS)
     return found
 
 
@@ -57,7 +57,7 @@ def test_follows_by_push_alone(page, sidebar, board):
     wait_text(part(sidebar, "heater").nth(0), "33")
     wait_text(part(sidebar, "heater").nth(0), "active")
     board.board.execute("G28", channel="http")
-    page.wait_for_selector("[data-test=axis].label-success", timeout=45_000)
+    page.wait_for_selector("[data-test=axis].label-success", timeout=PATIENCE_MS)
     board.board.execute("T0", channel="http")
     wait_text(part(sidebar, "tool"), "0")
     assert [url for url in requests if "/plugin/rrfmodel/" in url] == []
@@ -77,7 +77,7 @@ def test_says_why_the_data_are_old(sidebar, server, board):
     # it has been long enough
     board.board.speed = 300
     server.wait_for(lambda: helpers.status(server)["blocked"] is None, 40, "the command to end")
-    expect(part(sidebar, "reason")).to_have_count(0, timeout=45_000)
+    expect(part(sidebar, "reason")).to_have_count(0, timeout=PATIENCE_MS)
 
 
 def test_heater_fault_is_told_and_taken_back(page, sidebar, board, page_errors):
@@ -87,7 +87,7 @@ def test_heater_fault_is_told_and_taken_back(page, sidebar, board, page_errors):
     wait_text(page.locator(".ui-pnotify-text").last, "Heater 1 reports a fault")
     board.board.clear("heater_fault")
     board.board.execute("M562 P1", channel="http")
-    part(sidebar, "warning").wait_for(state="detached", timeout=45_000)
+    part(sidebar, "warning").wait_for(state="detached", timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 

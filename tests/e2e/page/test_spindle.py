@@ -3,10 +3,10 @@
 import pytest
 from playwright.sync_api import expect
 
+from tests.support.browser import PATIENCE_MS
+
 from .. import helpers
 from . import SECONDS, board_value, part, show_view, type_number, wait_board, wait_text
-
-pytestmark = pytest.mark.timeout(240)
 
 BOARD = {"machine": "cnc", "speed": 20}
 
@@ -31,13 +31,13 @@ def _as_it_was(server, board):
 
 def test_speed_and_direction(view, server, board):
     spindle = part(view, "spindle")
-    expect(spindle).to_have_count(1, timeout=45_000)
+    expect(spindle).to_have_count(1, timeout=PATIENCE_MS)
     type_number(part(spindle, "rpm"), 8000)
     wait_board(server, board, "spindles[0].active", 8000)
     wait_board(server, board, "spindles[0].state", "forward")
     # one that somebody else has turned round goes on as it turns
     board.board.execute("M4 P0 S500", channel="http")
-    expect(part(spindle, "reverse")).to_be_checked(timeout=45_000)
+    expect(part(spindle, "reverse")).to_be_checked(timeout=PATIENCE_MS)
     type_number(part(spindle, "rpm"), 700)
     wait_board(server, board, "spindles[0].active", 700)
     assert board_value(board, "spindles[0].state") == "reverse"
@@ -49,7 +49,7 @@ def test_speed_and_direction(view, server, board):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
-    expect(part(spindle, "reverse")).not_to_be_checked(timeout=45_000)
+    expect(part(spindle, "reverse")).not_to_be_checked(timeout=PATIENCE_MS)
     # and in the mode for it a laser is shown
     expect(part(view, "laser")).to_be_hidden()
     with board.board.lock:

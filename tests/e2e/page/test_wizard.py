@@ -4,13 +4,11 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import open_octoprint
+from tests.support.browser import PATIENCE_MS, open_octoprint
 
 from .. import helpers
 from . import SECONDS, both_hosts, own_errors, part, wait_text
 from .wizard import PROFILE, SHOW, command, setup
-
-pytestmark = pytest.mark.timeout(240)
 
 BOARD = {"machine": "corexy"}
 
@@ -28,7 +26,7 @@ def open_settings(page, server):
     open_octoprint(page, server, ADMIN)
     page.evaluate(SHOW)
     pane = page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=45_000)
+    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
     return pane
 
 
@@ -56,7 +54,7 @@ def test_all_is_true_or_false(server, wrong):
 def test_the_wizard_leads_through_by_keyboard(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=45_000)
+    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
     expect(part(wizard, "wizard-settings").locator("h4")).to_be_focused()
     part(wizard, "wizard-next").press("Enter")
     expect(part(wizard, "wizard-profile").locator("h4")).to_be_focused()
@@ -71,21 +69,21 @@ def test_the_wizard_leads_through_by_keyboard(own_page, server, page_errors):
 def test_who_wants_it_later_is_asked_again(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=45_000)
+    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
     part(wizard, "wizard-later").click()
     expect(wizard).to_be_hidden()
     helpers.wait_polls(server, 2)
     expect(wizard).to_be_hidden()
     assert helpers.status(server)["first_run"] is True
     open_octoprint(own_page, server, ADMIN)
-    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
+    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
     assert own_errors(page_errors) == []
 
 
 def test_who_declines_is_not_asked_again(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=45_000)
+    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
     part(wizard, "wizard-never").click()
     expect(wizard).to_be_hidden()
     server.wait_for(lambda: not helpers.status(server)["first_run"], 45, "the end of the first run")
@@ -100,7 +98,7 @@ def test_the_wizard_comes_with_the_first_machine(own_page, server, board):
     open_octoprint(own_page, server, ADMIN)
     expect(wizard_of(own_page)).to_be_hidden()
     helpers.connect(server, board, SECONDS)
-    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
+    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
 
 
 @both_hosts
@@ -109,12 +107,12 @@ def test_the_wizard_waits_for_another_dialog(own_page, server, board):
     pane = open_settings(own_page, server)
     helpers.connect(server, board, SECONDS)
     own_page.wait_for_function(
-        "OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run", timeout=45_000
+        "OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run", timeout=PATIENCE_MS
     )
     expect(pane).to_be_visible()
     expect(wizard_of(own_page)).to_be_hidden()
     own_page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.hide()")
-    expect(wizard_of(own_page)).to_be_visible(timeout=45_000)
+    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
 
 
 def test_the_wizard_stays_away_where_nothing_is_to_do(own_page, server):

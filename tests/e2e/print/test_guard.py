@@ -16,7 +16,6 @@ pytestmark = [
         "each streams and pauses with its own code", once_for=("fault", "code", "firmware")
     ),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 PAUSE_SECONDS = 6

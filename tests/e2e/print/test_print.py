@@ -12,7 +12,6 @@ from .. import helpers
 pytestmark = [
     pytest.mark.both_hosts("each streams and pauses with its own code"),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 LINES = 2500

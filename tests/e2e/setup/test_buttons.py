@@ -15,7 +15,6 @@ from .. import helpers
 
 pytestmark = [
     pytest.mark.both_hosts("settings of the serial line lie in different places"),
-    pytest.mark.timeout(300),
 ]
 
 

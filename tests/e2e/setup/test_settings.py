@@ -14,7 +14,6 @@ pytestmark = [
         "settings of the serial line lie in different places", once_for=("machine",)
     ),
     pytest.mark.slow,
-    pytest.mark.timeout(300),
 ]
 
 PROFILE = "/api/printerprofiles/_default"

@@ -7,7 +7,7 @@ from tests.support.basedir import is_version_2
 from .. import helpers
 from ..operations import PROFILE, Machine
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
+pytestmark = pytest.mark.slow
 
 COMMAND = "/api/plugin/rrfmodel"
 
