@@ -14,16 +14,12 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.host.tags import POLL_TAG
 from octoprint_rrfmodel.link.serial.display import Display
-from octoprint_rrfmodel.link.serial.operation_translator import (
-    OPERATION_OF_TAG,
-    OperationTranslator,
-)
-from octoprint_rrfmodel.link.serial.queued import QueuedCommands
+from octoprint_rrfmodel.link.serial.operation_translator import OPERATION_OF_TAG
 from octoprint_rrfmodel.link.serial.received import ReceivedLines
 from octoprint_rrfmodel.link.serial.sdcard import SdCard
 from octoprint_rrfmodel.link.serial.sent import SentCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
-from octoprint_rrfmodel.link.serial.unsendable_commands import UnsendableCommands
+from octoprint_rrfmodel.link.serial.way_out import queued_commands
 from octoprint_rrfmodel.link.terminal import PollTrace
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from octoprint_rrfmodel.rrf.card.wording import Situation, reword
@@ -53,6 +49,7 @@ class Rig:
         self.comm = SimpleNamespace(
             _clear_to_send=threading.Event(),
             _serial_encoding="utf-8",
+            _printer_profile={"extruder": {"count": 2, "sharedNozzle": False}},
             last_temperature=SimpleNamespace(set_tool=lambda *args, **more: None),
             getCurrentTool=lambda: 0,
             isPrinting=lambda: True,
@@ -63,20 +60,24 @@ class Rig:
             cancel=lambda gcode: None,
             allow_opening=lambda comm: None,
             situation=lambda *known: Situation(),
+            reworded=lambda comm, worded: [],
         )
         card = SdCard(
             CardPlan(), job, self.link, model=lambda: self.model, is_reworded=lambda row: True
         )
         self.link.attach(card)
-        self.received = ReceivedLines(self.link, card, self.note, guards=lambda error: False)
+        patience = SimpleNamespace(feed=lambda comm: "")
+        self.received = ReceivedLines(
+            self.link, card, self.note, guards=lambda error: False, patience=patience
+        )
         self.received.on_firmware_info(self.comm, "RepRapFirmware for Duet 2 WiFi", {})
-        operations = OperationTranslator(self.machine, lambda row: True, self.note)
-        unsendable = UnsendableCommands(self.machine, lambda row: True, self.note, paused=self.note)
-        self.queued = QueuedCommands(
+        self.queued = queued_commands(
             self.link,
-            self.note,
-            unsendable.instead,
-            translators=(card.translate, operations.translate),
+            card,
+            self.machine,
+            notify=self.note,
+            is_on=lambda row: True,
+            prompts=lambda cmd, gcode, tags: None,
         )
         self.sent = SentCommands(self.link, self.note, float, show_target=self.note, sent=self.note)
         known = SimpleNamespace(heat=lambda: (temperatures(self.model), True))
@@ -212,7 +213,7 @@ def test_any_line_is_looked_at(name, line):
 def test_many_sensors_of_one_name_take_no_time():
     sensors = [{"name": "x", "lastReading": 1.0} for _ in range(20_000)]
     found = temperatures({"sensors": {"analog": sensors}, "heat": {"heaters": sensors}}).others
-    assert len(found) == 20_000 and "x 20000" in found
+    assert len(found) == 20_000 and "Sensor x 20000" in found
 
 
 def test_there_are_long_lines():

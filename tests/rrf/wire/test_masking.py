@@ -81,9 +81,10 @@ def test_nothing_behind_such_a_command_is_left(command, before, behind):
     "part", ["M0", "M", "M ", " ", "0", "password", "password ", "M587", "a=b "]
 )
 def test_time_grows_with_the_length_alone(part):
-    began = time.perf_counter()
+    # of this thread alone: quadratic would be minutes
+    began = time.thread_time()
     masked(part * (256_000 // len(part)))
-    assert time.perf_counter() - began < 2
+    assert time.thread_time() - began < 5
 
 
 def test_address():
