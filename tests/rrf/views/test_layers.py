@@ -192,4 +192,5 @@ def test_a_whole_job(firmware):
     assert [layer.layer for layer in layers.since()] == sorted(began)
     for layer in layers.since():
         true = began.get(layer.layer + 1, last) - began[layer.layer]
-        assert layer.seconds == pytest.approx(true, abs=1.1)
+        # a second of the job's own clock, and half of one between two looks
+        assert layer.seconds == pytest.approx(true, abs=1.6)
