@@ -131,3 +131,62 @@ def test_print(server, board_factory, fault):
         board.board.clear(fault.partition(":")[0])
     server.wait_for(lambda: not helpers.status(server)["stale"], 20, "fresh data")
     helpers.wait_equal(server, board, 10)
+
+
+SURVIVED = (
+    "lost_ok:401",
+    "truncated:2",
+    "bad_utf8:2",
+    "garbage:3",
+    "huge_line:2",
+    "debug_text:2",
+    "err_no_buffers:2",
+    "unsolicited:3",
+    "error_reply:50",
+    "unread:2",
+)
+"""Faults of the line and of the board that a print goes through."""
+
+BETWEEN = {
+    # silent for as long as its macro takes
+    500: "G28",
+    700: "M117 *** not a checksum ***",
+    900: "T0",
+    1100: "M98 P\"0:/macros/Say hello\"",
+    1300: "M109 S45",
+    1500: "X21.5 Y21.5",
+    1700: "G32",
+    1900: "M290 S0.01",
+}
+"""Number of a move -> what comes in front of it."""
+
+
+@pytest.mark.parametrize("firmware", ["3.5.3", "3.7"])
+def test_print_with_all_that_can_be_survived(server, board_factory, firmware):
+    board = board_factory(firmware=firmware, speed=10)
+    helpers.connect(server, board)
+    server.commands("G28")
+    helpers.wait_value(server, "move.axes[].homed", [True] * 3, 30)
+    for fault in SURVIVED:
+        board.board.inject(fault)
+    moves = distinct_moves(2000)
+    lines = []
+    for number, move in enumerate(moves):
+        lines += [BETWEEN[number], move] if number in BETWEEN else [move]
+    start = len(board.board.received())
+    print_through(server, board, lines, f"all-{firmware}.gcode")
+
+    def arrived():
+        sent = helpers.commands(board)[start:]
+        return [command for command in sent if command in wanted]
+
+    # a comment that would be dropped goes out quoted
+    wanted = set(lines) - {BETWEEN[700]}
+    expected = [line for line in lines if line in wanted]
+    server.wait_for(lambda: len(arrived()) >= len(expected), 30, "the last line to arrive")
+    assert arrived() == expected
+    assert any("not a checksum" in command for command in helpers.commands(board)[start:])
+    for fault in SURVIVED:
+        board.board.clear(fault.partition(":")[0])
+    server.wait_for(lambda: not helpers.status(server)["stale"], 20, "fresh data")
+    helpers.wait_equal(server, board, 10)
