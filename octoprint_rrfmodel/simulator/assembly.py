@@ -240,7 +240,13 @@ class Assembly:
             OldStatus(live, values),
             Listing(card, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
-            Information(model=model, card=card, job=job, model_text=self.model_text),
+            Information(
+                model=model,
+                card=card,
+                job=job,
+                model_text=self.model_text,
+                has_model=self.firmware.has_model,
+            ),
             Prints(job=job, card=card, motion=motion, macros=macros, live=live, output=output),
             System(
                 model=model,

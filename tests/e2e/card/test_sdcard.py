@@ -266,8 +266,10 @@ def test_print_to_its_end_and_another(server, connected, select):
     assert_no_harm(board)
 
 
-def test_job_of_the_machine_is_shown(server, connected, select):
-    board = connected()
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@pytest.mark.parametrize("firmware", ["2.05", "3.5.3"])
+def test_job_of_the_machine_is_shown(server, connected, select, firmware):
+    board = connected(firmware=firmware)
     select("square.gcode")
     name = "Spare parts/ver 2/clip.gcode"
     with PushListener(server, ADMIN) as push:
