@@ -104,7 +104,7 @@ def assert_no_harm(board):
 
 
 @pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.3", "3.6", "3.7"])
 def test_card_is_listed(server, connected, files, firmware):
     board = connected(firmware=firmware)
     assert server.get("/api/printer").json()["sd"] == {"ready": True}
@@ -193,7 +193,7 @@ def test_file_is_selected(server, connected, select, files, name):
 @pytest.mark.both_hosts("each has its own code for the card", once_for=("machine", "firmware"))
 @pytest.mark.parametrize(
     "machine, firmware",
-    [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.6")],
+    [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.7")],
 )
 def test_print_pause_resume_cancel(server, connected, select, machine, firmware):
     board = connected(machine=machine, firmware=firmware)

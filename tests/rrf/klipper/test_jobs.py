@@ -304,7 +304,7 @@ def test_same_file_printed_again_by_the_host():
     assert session.get("virtual_sdcard", "progress") == 0.0
 
 
-FIRMWARE = ["3.3", "3.4", "3.5.1", "3.5.3", "3.6"]
+FIRMWARE = ["3.3", "3.4", "3.5.1", "3.5.3", "3.6", "3.7"]
 
 
 def states_of(machine, until):
@@ -394,7 +394,7 @@ def test_objects_of_a_simulated_print():
     assert machine.get("print_stats", "info")["total_layer"] is not None
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6", "3.7"])
 def test_simulated_print_that_a_host_streams(firmware):
     machine = Machine("cartesian", firmware)
     machine.send("T0", "M302 P1", "M83", "G28")
