@@ -1,7 +1,7 @@
 """View: the channels that commands come from, and which of them is the host's own line.
 
-Its number and name depend on firmware, board and plug: 3.7 has two channels over USB, and a host may
-be connected to a serial port of the board.
+Its number and name depend on firmware, board and plug: 3.7 has two channels over USB, and a host
+may be connected to a serial port of the board.
 """
 
 from __future__ import annotations

@@ -117,7 +117,10 @@ def no_job() -> dict[str, Any]:
 def input_list(firmware: Firmware, has_sbc: bool, aux2: bool) -> list[dict[str, Any] | None]:
     """Return ``inputs``; channels that the board doesn't have are null, later ones are missing."""
     missing = {"SBC": not has_sbc, "Aux2": not aux2, "File2": not aux2, "Queue2": not aux2}
-    later = () if firmware.at_least(3, 7) else INPUTS_SINCE_37
-    later += () if firmware.at_least(3, 5) else INPUTS_SINCE_35
+    later: set[str] = set()
+    if not firmware.at_least(3, 7):
+        later.update(INPUTS_SINCE_37)
+    if not firmware.at_least(3, 5):
+        later.update(INPUTS_SINCE_35)
     names = [n for n in INPUT_NAMES if n not in later]
     return [None if missing.get(name) else gcode_input(name) for name in names]
