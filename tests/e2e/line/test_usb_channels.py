@@ -22,9 +22,9 @@ def speed(server):
     return response.json()["result"]["status"]["gcode_move"]["speed"]
 
 
-@pytest.mark.parametrize("port", ["USB2", "USB"])
-def test_row_27_own_channel_is_found(server, board_factory, port):
-    board = board_factory(firmware="3.7", speed=10)
+@pytest.mark.parametrize(("firmware", "port"), [("3.7", "USB2"), ("3.7", "USB")])
+def test_row_27_own_channel_is_found(server, board_factory, firmware, port):
+    board = board_factory(firmware=firmware, speed=10)
     board.board.plug_into(port)
     helpers.connect(server, board)
     state = helpers.status(server)
