@@ -79,6 +79,8 @@ class SdJob:
             return Lines()
         if gcode != "M25":
             return None
+        if comm is not None:
+            self._origin.cancels(comm)
         self._cancelled_at = self._clock()
         self._asks_again = True
         if self._is_current() and card_job(self._model()).is_paused:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from .channels import CARD, channel_called, own_channel
-from .job import card_job
+from .job import card_job, progress
 from .machine import Machine, array, mapping
 
 GCODES = "0:/gcodes/"
@@ -56,7 +56,7 @@ def printing(model: Mapping[str, Any]) -> Printing:
         layers=_whole(file.get("numLayers")) or None,
         height=_height(model),
         total_height=_real(file.get("height")) or None,
-        fraction=min(job.position / job.size, 1.0) if job.size > 0 else None,
+        fraction=progress(model) if job.is_active else None,
         seconds_left=next(
             (time for name in ESTIMATES if (time := _real(left.get(name))) is not None), None
         ),
