@@ -50,7 +50,8 @@ def own_channel(model: Mapping[str, Any]) -> Mapping[str, Any]:
     number = mapping(model.get("state")).get("thisInput")
     if type(number) is int and 0 <= number < len(inputs):
         told = mapping(inputs[number])
-        if told and told.get("name") not in NO_LINES:
+        name = told.get("name")
+        if isinstance(name, str) and name not in NO_LINES:
             return told
     for begin in LINES:
         found = [each for each in _channels(model) if str(each.get("name")).startswith(begin)]

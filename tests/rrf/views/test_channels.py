@@ -24,6 +24,7 @@ OWN = {
     "told, and it is the network's": ([NET, USB], 0, "USB"),
     "told, and there is none": ([NET, USB, None], 2, "USB"),
     "told, beyond the last": ([NET, USB], 7, "USB"),
+    "told, and its name is odd": ([USB, {"name": []}], 1, "USB"),
     "told, and no number": ([NET, USB], True, "USB"),
     "not told": ([NET, None, AUX, USB], None, "USB"),
     "not told: the one that shows our lines": ([NET, USB, AUX, USB2], None, "USB2"),
