@@ -3,7 +3,7 @@
 from ..rrf.follow.follower import LIVE_ROOT
 from ..rrf.views.machine import Machine
 from ..rrf.views.temperatures import temperatures
-from ..rrf.wire.request import ModelRequest
+from ..rrf.wire.request import ModelRequest, StatusRequest
 
 
 class Known:
@@ -70,9 +70,9 @@ class Known:
         """Note that the reply to a request, asked for then, was applied."""
         self.applied_at = self._clock()
         times = (asked_at, self.applied_at)
-        if not isinstance(request, ModelRequest):
+        if isinstance(request, StatusRequest):
             self._live = {"": times}
-        elif request.flags.startswith(LIVE_ROOT.flags):
+        elif isinstance(request, ModelRequest) and request.flags.startswith(LIVE_ROOT.flags):
             # all live values at once, or one key of a board without room
             self._live = self._with_live(request.key, times)
         self.asked_at = min((asked for asked, _ in self._live.values()), default=0.0)

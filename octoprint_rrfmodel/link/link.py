@@ -24,9 +24,6 @@ class Link(abc.ABC):
     kind = ""
     """``serial`` or ``network``."""
 
-    channel = ""
-    """The board's name of the channel that OctoPrint talks on, as in ``inputs[].name``."""
-
     connection: object = None
     """What OctoPrint's hooks are handed as the connection, ``None`` without RepRapFirmware at its
     other end. It tells one connection from the next, and is nobody's to look into."""

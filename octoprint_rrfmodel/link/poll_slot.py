@@ -7,7 +7,16 @@ import threading
 from ..rrf.follow.asked import answer_to
 from ..rrf.wire.line import NO_BUFFERS
 from ..rrf.wire.reply import MalformedReply
-from ..rrf.wire.request import FileRequest, ListRequest, ModelRequest, PieceRequest
+from ..rrf.wire.request import (
+    FileRequest,
+    JobFileRequest,
+    ListRequest,
+    ModelRequest,
+    PieceRequest,
+)
+
+ABOUT_THE_CARD = (ListRequest, FileRequest, PieceRequest, JobFileRequest)
+"""Requests that the board refuses with ``Error: M20: ...`` and the like."""
 
 MOST_QUERIES = 4
 """Questions to the printer that may wait for the one poll slot."""
@@ -32,7 +41,7 @@ class Poll:
         """Whether a reply that looked like its own told another number."""
         self.acknowledged = False
         self.answered = False
-        self.is_about_the_card = isinstance(request, (ListRequest, FileRequest, PieceRequest))
+        self.is_about_the_card = isinstance(request, ABOUT_THE_CARD)
 
     def may_be_answered_by(self, text, number):
         """Return whether a reply is of the kind asked for, and to this command if it says so."""

@@ -229,10 +229,10 @@ class Poller:
             return
         poll.answered = True
         self._count("replies")
-        if poll.is_card:
-            self._card.failed()
-        else:
+        if poll.query is not None:
             fail(poll.query, "the printer refused")
+        else:
+            (self._card.failed if poll.is_card else self.follower.not_supported)()
         self._finish_if_over()
 
     def _count(self, outcome):

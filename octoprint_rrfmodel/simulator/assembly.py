@@ -51,7 +51,7 @@ from .gcodes.storage.listing import Listing
 from .gcodes.storage.prints import Prints
 from .gcodes.system import System
 from .gcodes.tools import Tools
-from .hardware.blank import INPUT_NAMES
+from .hardware.blank import INPUT_NAMES, USB
 from .interpreter.decoder import Decoder
 from .interpreter.execution import Interpreter
 from .interpreter.macros import Macros
@@ -99,10 +99,10 @@ class Assembly:
         self.output = Output(self.clock, self.faults, self.plug)
         self.replies = Replies(self.object_model)
         self.channels = {name: self._channel(name) for name in INPUT_NAMES}
-        self.usb_input = UsbInput(self.clock, self.channels["USB"])
+        self.usb_input = UsbInput(self.clock, self.channels[USB])
 
     def _channel(self, name: str) -> Channel:
-        write = self.output.reply if name == "USB" else self.replies.writer(name)
+        write = self.output.reply if name == USB else self.replies.writer(name)
         return Channel(name, self.object_model, write, echoes=name != "File")
 
     def _make_device(self) -> None:
@@ -150,7 +150,7 @@ class Assembly:
             clock=clock,
             firmware=self.firmware,
             thermal=self.thermal,
-            usb=self.channels["USB"],
+            usb=self.channels[USB],
             output=output,
             faults=self.faults,
         )
@@ -171,7 +171,7 @@ class Assembly:
                 gcodes=self.gcodes,
                 decoder=self.decoder,
                 emergency=self.emergency,
-                usb=self.channels["USB"],
+                usb=self.channels[USB],
             )
             self.usb_input.takes = urgent.takes
         self.macros = Macros(
@@ -240,14 +240,20 @@ class Assembly:
             OldStatus(live, values),
             Listing(card, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
-            Information(model=model, card=card, job=job, model_text=self.model_text),
+            Information(
+                model=model,
+                card=card,
+                job=job,
+                model_text=self.model_text,
+                has_model=self.firmware.has_model,
+            ),
             Prints(job=job, card=card, motion=motion, macros=macros, live=live, output=output),
             System(
                 model=model,
                 clock=clock,
                 emergency=self.emergency,
                 restart=self.restart,
-                usb=self.channels["USB"],
+                usb=self.channels[USB],
                 output=output,
             ),
         )

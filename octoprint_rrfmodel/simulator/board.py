@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Callable
 
 from .assembly import Assembly
-from .hardware.blank import INPUT_NAMES
+from .hardware.blank import INPUT_NAMES, USB
 from .line.usb_input import Received
 
 STEP = 0.25
@@ -37,6 +37,7 @@ class Board(Assembly):
     ):
         super().__init__(machine, firmware, model)
         self.lock = threading.RLock()
+        self._port = USB
         self._use_first_channels()
         self.restart.register(self._use_first_channels)
         self._speed = speed
@@ -47,7 +48,7 @@ class Board(Assembly):
             self.inject(text)
 
     def _use_first_channels(self) -> None:
-        self._used_channels = [self.channels["USB"], self.channels["File"]]
+        self._used_channels = [self.channels[self._port], self.channels["File"]]
 
     @property
     def model(self) -> dict[str, Any]:
@@ -103,6 +104,14 @@ class Board(Assembly):
             self._started_at, self._started_now = self._wall_clock(), self.clock.now
             self._speed = value
 
+    def plug_into(self, name: str) -> None:
+        """Put the host on another channel over USB; 3.7 has two."""
+        with self.lock:
+            host, other = self.channels[self._port], self.channels[name]
+            host.name, other.name = name, self._port
+            self.channels[name], self.channels[self._port] = host, other
+            self._port = name
+
     @property
     def has_room(self) -> bool:
         """Whether the board takes further bytes; a busy channel leaves them in its buffer."""
@@ -142,7 +151,7 @@ class Board(Assembly):
         with self.lock:
             self.advance()
             name = next((n for n in INPUT_NAMES if n.lower() == channel.lower()), None)
-            if name is None or name == "USB":
+            if name is None or name == self._port:
                 raise ValueError(f"no channel {channel!r} to execute on")
             used = self.channels[name]
             if used not in self._used_channels:
@@ -230,7 +239,7 @@ class Board(Assembly):
         self.clock.run_due()
         is_stalled = self.faults.is_on("stall")
         for channel in self._used_channels:
-            if is_stalled and channel.name == "USB":
+            if is_stalled and channel.name == self._port:
                 continue
             if (
                 channel.name == "File"

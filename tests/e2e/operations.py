@@ -14,7 +14,7 @@ PROFILE = {"extruder": {"count": 11}, "heatedChamber": True, "heatedBed": True}
 SETUPS = {
     f"{name} {firmware}": (kind, firmware)
     for name, kind, versions in (
-        ("one tool", "cartesian", ("2.05", "3.3", "3.5.3", "3.6")),
+        ("one tool", "cartesian", ("2.05", "3.3", "3.5.3", "3.7")),
         ("changer", "toolchanger", ("2.05", "3.3", "3.5.3", "3.6")),
         ("no tools", "cnc", ("2.05", "3.3", "3.5.3", "3.6")),
         ("two beds", "idex", ("2.05", "3.3", "3.5.3", "3.6")),

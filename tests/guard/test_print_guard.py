@@ -14,7 +14,7 @@ from octoprint_rrfmodel.rrf.wire.m408 import M408Model
 from ..rrf.simulated import Simulated
 
 M408 = "2.05.1"
-VERSIONS = ("3.3", "3.4", "3.5.3", "3.6.0", M408)
+VERSIONS = ("3.3", "3.4", "3.5.3", "3.6.0", "3.7", M408)
 
 
 class Printing:

@@ -167,6 +167,20 @@ def test_print_that_ended_at_the_machine_without_a_word(own):
     assert own.cancel() == WHOLE_CANCEL
 
 
+def test_print_that_octoprint_cancels_keeps_its_script_however_long_that_takes(own):
+    own.comm.state = "cancelling"
+    assert own.goes_out("M108", ABORT) == ["M108"]
+    assert own.goes_out("M25", CANCEL) != []
+    # the board has none any more, and OctoPrint asks on until its own lines are through
+    own.status("idle")
+    own.comm._consecutive_not_sd_printing = 3
+    assert own.runs("afterPrintCancelled") == ["afterPrintCancelled"]
+    # the next one may be lost
+    own.octoprint_begins()
+    own.comm._consecutive_not_sd_printing = 3
+    assert own.cancel() == ["M114"]
+
+
 def test_print_that_ended_at_the_machine_as_the_firmware_says(own):
     own.hear("Cancelled printing file 0:/gcodes/a b.gcode, print time was 0h 0m")
     assert own.cancel() == ["M114"]

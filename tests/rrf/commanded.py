@@ -20,7 +20,7 @@ FREE = Situation(
 
 STEP = re.compile(r"([^.\[\]]+)|\[([0-9]+)\]")
 
-VERSIONS = ("2.05", "3.3", "3.4", "3.5.1", "3.5.3", "3.6")
+VERSIONS = ("2.05", "3.3", "3.4", "3.5.1", "3.5.3", "3.6", "3.7")
 
 READY = {
     # homed, hot and with its tool, which is when most is allowed

@@ -31,7 +31,7 @@ FULL = "a whole model, on a board"
 PATCH = "a patch of a whole model"
 SESSION = "a whole model and patches"
 CONSOLE = "a console, line by line"
-OTHER = "an answer to something else"
+FILE = "an answer to M36"
 FOLDER = "a page of a folder's list"
 CORRUPT = "a spoilt answer"
 
@@ -45,9 +45,9 @@ FILES = {
     "m408_7_s5_rrf30_duet2.json": M408,
     "m408_panelpi_01_I.json": M408,
     "m408_panelpi_04_P.json": M408,
-    "m408_panelpi_06_fileinfo.json": OTHER,
+    "m408_panelpi_06_fileinfo.json": FILE,
     "m408_panelpi_07_corrupt.json": CORRUPT,
-    "m408_panelpi_08_fileinfo.json": OTHER,
+    "m408_panelpi_08_fileinfo.json": FILE,
     "om31_duet2_d99fn.json": ENVELOPE,
     "om31_duet2_job_d99vn.json": ENVELOPE,
     "om31_duet2_move_d99vn.json": ENVELOPE,
@@ -64,7 +64,7 @@ FILES = {
     "om360b1_duet2wifi_poll_fd99.json": ENVELOPE,
     "om_dsf130_default.json": FULL,
     "rrconfig_2051_duetwifi_delta.json": M408,
-    "rrfileinfo_31_duet2.json": OTHER,
+    "rrfileinfo_31_duet2.json": FILE,
     "rrfilelist_30_duet2_macros.json": FOLDER,
     "rrstatus1_2051_duetwifi_delta.json": M408,
     "rrstatus1_30_duet2_idle.json": M408,
@@ -270,11 +270,22 @@ def test_recorded_list_is_read(captures, name):
     assert len(page.entries) == len(json.loads(line)["files"])
 
 
-@fed_as(OTHER)
-def test_answer_to_another_command_is_left_alone(captures, name):
+@fed_as(FILE)
+def test_answer_about_a_file_is_known_as_one(captures, name):
     line = line_of(captures, name)
-    assert find_reply(line) is None
-    assert find_reply(line + "\n") is None
+    found = find_reply(line + "\n")
+    assert found == (line, "", None)
+    # others than the plugin ask, too
+    assert found.is_of_a_file
+
+
+def test_row_24_recorded_job_has_its_name_and_size(captures):
+    model = M408Model()
+    model.take(json.loads(line_of(captures, "m408_panelpi_04_P.json")))
+    job = model.take_file(json.loads(line_of(captures, "m408_panelpi_08_fileinfo.json")))["job"]
+    assert (job["file"]["fileName"], job["file"]["size"]) == ("current file", 35498176)
+    # the status of 2.x has no position of its own
+    assert job["filePosition"] == round(0.282 * 35498176)
 
 
 @fed_as(CORRUPT)

@@ -155,6 +155,17 @@ def test_information_about_the_print(bench):
     assert found["printDuration"] == 10
 
 
+def test_information_before_there_was_a_model(bench):
+    board = bench(firmware="2.05")
+    assert board.send('M36 "no.gcode"') == '{"err":1}\nok\n'
+    assert "fileName" not in listing(board, 'M36 "square.gcode"')
+    board.send('M32 "square.gcode"')
+    board.wait(10)
+    text = board.send("M36")
+    assert text.startswith('{"err":0,"size":')
+    assert text.endswith(',"printDuration":10,"fileName":"0:/gcodes/square.gcode"}\n\nok\n')
+
+
 def test_thumbnail(bench):
     board = bench()
     offset = listing(board, 'M36 "square.gcode"')["thumbnails"][0]["offset"]

@@ -189,6 +189,16 @@ def test_37_knows_no_old_commands(bench, line):
     assert "not supported" not in bench(firmware="3.6.4").send(line)
 
 
+def test_37_has_two_channels_over_usb(bench):
+    board = bench(firmware="3.7")
+    assert [channel["name"] for channel in board.ask("inputs") if channel][-1] == "USB2"
+    assert board.ask("state.thisInput", "v") == 3
+    board.board.plug_into("USB2")
+    assert board.ask("state.thisInput", "v") == 14
+    assert board.ask("inputs[14].state") == "executing"
+    assert "USB2" not in str(bench(firmware="3.6.4").ask("inputs"))
+
+
 def test_37_is_for_no_duet_2(bench):
     delta = bench("delta", firmware="3.7")
     assert "Duet 2" not in delta.send("M115")

@@ -24,7 +24,7 @@ class PrintOrigin:
 
     def forget(self):
         """Know of no print: another connection."""
-        self._began = self._ended = self._seen = self._gone = None
+        self._began = self._ended = self._seen = self._gone = self._cancelled = None
 
     def begins(self, comm):
         """Note that OctoPrint tells the board to begin the print that it shows."""
@@ -33,6 +33,10 @@ class PrintOrigin:
     def ended_there(self, comm):
         """Note that the print that OctoPrint shows was ended at the machine."""
         self._ended = _print_of(comm)
+
+    def cancels(self, comm):
+        """Note that OctoPrint tells the board to end the print that it shows."""
+        self._cancelled = _print_of(comm)
 
     def looks(self, comm, job, status):
         """Note what current news say of the board's job."""
@@ -48,7 +52,8 @@ class PrintOrigin:
         shown = _print_of(comm)
         if shown is not None and self._ended == shown:
             return True
-        if comm.isSdPrinting() and has_lost_it(comm):
+        # what OctoPrint ends itself is gone because of that
+        if comm.isSdPrinting() and has_lost_it(comm) and self._cancelled != shown:
             # another job may begin before all that OctoPrint has to say is through
             self._ended = shown
             return True

@@ -173,7 +173,7 @@ class SdCard:
         opened = None
         if alias and is_listed(comm, alias):
             opened = (PREFIX + alias, index.file_of(alias).size)
-        knows_file, is_telling = self._plan.notices_changes, bool(self._says)
+        knows_file, is_telling = bool(self._model()), bool(self._says)
         return self._job.situation(comm, index, opened, knows_file, is_telling)
 
     def _collect(self, comm, line):

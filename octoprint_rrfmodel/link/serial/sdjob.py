@@ -79,6 +79,8 @@ class SdJob:
             return Lines()
         if gcode != "M25":
             return None
+        if comm is not None:
+            self._origin.cancels(comm)
         self._cancelled_at = self._clock()
         self._asks_again = True
         if self._is_current() and card_job(self._model()).is_paused:
@@ -201,7 +203,7 @@ class SdJob:
             return ("// action:paused",) if job.is_paused and is_steady else ()
         if comm.isBusy() or not comm.isOperational() or comm._sdFileToSelect:
             return ()
-        return self._adopt(comm, index, job.path)
+        return self._adopt(comm, index, job)
 
     def _is_astray(self, comm, index, job):
         """Return whether OctoPrint shows a print while the board has a job of another file."""
@@ -213,19 +215,20 @@ class SdJob:
             self._astray_at = self._clock()
         return self._clock() - self._astray_at > ASTRAY_SECONDS
 
-    def _adopt(self, comm, index, path):
+    def _adopt(self, comm, index, job):
         """Return what selects the file of a job that was started at the machine.
 
         OctoPrint then asks for its progress and takes a position that grows for a print.
         """
-        alias = index.alias_of(path) if index else None
-        if alias is None or self._adopted == path or not is_listed(comm, alias):
+        alias = index.alias_of(job.path) if index else None
+        if alias is None or self._adopted == job.path or not is_listed(comm, alias):
             return ()
-        self._adopted = path
-        if _is_selected(comm, index, path):
+        self._adopted = job.path
+        if _is_selected(comm, index, job.path):
             return ()
         self.allow_opening(comm)
-        size = index.file_of(alias).size
+        # a plain list has no sizes
+        size = index.file_of(alias).size or job.size
         return (f"File opened: {PREFIX}{alias} Size: {size}", "File selected")
 
 

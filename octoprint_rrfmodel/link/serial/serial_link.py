@@ -45,7 +45,6 @@ class SerialLink(Link):
     """
 
     kind = "serial"
-    channel = "USB"
 
     def __init__(self, printer, profiles, clock):
         self._printer = printer

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from ..views.channels import CARD, channel_called, own_channel
 from ..views.machine import Machine, array, mapping
 from ..views.sensor_kinds import is_thermometer
 from .values import element, first, named, number, text, whole
@@ -17,8 +18,6 @@ LETTERS = ("X", "Y", "Z")
 
 FED_BY_FILE = frozenset(("processing", "simulating", "pausing", "resuming", "paused"))
 """Values of ``state.status`` while the channel ``File`` feeds motion."""
-
-OWN_CHANNELS = ("USB", "Aux")
 
 
 class Extruder(NamedTuple):
@@ -78,14 +77,9 @@ class Printer:
     @cached_property
     def channel(self) -> Model:
         """The channel that feeds motion, ``File`` or our own; empty where it is null."""
-        channels = [mapping(channel) for channel in array(self.model.get("inputs"))]
-        by_name = {text(channel.get("name")): channel for channel in channels}
         if self.status in FED_BY_FILE:
-            return by_name.get("File", {})
-        asked = element(channels, self.state.get("thisInput"))
-        if asked.get("name") in OWN_CHANNELS:
-            return asked
-        return next((by_name[name] for name in OWN_CHANNELS if name in by_name), {})
+            return channel_called(self.model, CARD)
+        return own_channel(self.model)
 
     @cached_property
     def heat(self) -> Model:

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from .job import card_job
+from .channels import CARD, channel_called, own_channel
+from .job import card_job, progress
 from .machine import Machine, array, mapping
 
 GCODES = "0:/gcodes/"
-
-CARD_CHANNEL = "File"
-HOST_CHANNEL = "USB"
-"""Names of ``inputs[]``: where the lines of a print from the card and of a host's come in."""
 
 ESTIMATES = ("slicer", "filament", "file")
 """Members of ``job.timesLeft``, the one that knows most first."""
@@ -59,11 +56,11 @@ def printing(model: Mapping[str, Any]) -> Printing:
         layers=_whole(file.get("numLayers")) or None,
         height=_height(model),
         total_height=_real(file.get("height")) or None,
-        fraction=min(job.position / job.size, 1.0) if job.size > 0 else None,
+        fraction=progress(model) if job.is_active else None,
         seconds_left=next(
             (time for name in ESTIMATES if (time := _real(left.get(name))) is not None), None
         ),
-        feed_rate=_feed_rate(model, CARD_CHANNEL if job.is_active else HOST_CHANNEL),
+        feed_rate=_feed_rate(channel_called(model, CARD) if job.is_active else own_channel(model)),
         fan=_fan(model),
     )
 
@@ -75,12 +72,9 @@ def _height(model: Mapping[str, Any]) -> float | None:
     return None
 
 
-def _feed_rate(model: Mapping[str, Any], channel: str) -> float | None:
-    for entry in map(mapping, array(model.get("inputs"))):
-        if entry.get("name") == channel:
-            speed = _real(entry.get("feedRate"))
-            return None if speed is None else speed * 60
-    return None
+def _feed_rate(channel: Mapping[str, Any]) -> float | None:
+    speed = _real(channel.get("feedRate"))
+    return None if speed is None else speed * 60
 
 
 def _fan(model: Mapping[str, Any]) -> float | None:

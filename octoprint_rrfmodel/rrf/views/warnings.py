@@ -20,6 +20,7 @@ from .board_warnings import (
     low_supplies,
     open_loads,
 )
+from .channels import own_channel
 from .filament_monitors import only_own_prints, unfed
 from .machine import Machine, array, mapping
 
@@ -103,9 +104,8 @@ def loses_boxes(version: tuple[int, int, int]) -> bool:
 def _waiting(model: Model) -> Iterator[Found]:
     if not loses_boxes(Machine(model).version):
         return
-    for channel in map(mapping, array(model.get("inputs"))):
-        if channel.get("name") == "USB" and channel.get("state") == "awaitingAcknowledgement":
-            yield Found()
+    if own_channel(model).get("state") == "awaitingAcknowledgement":
+        yield Found()
 
 
 CONDITIONS = (

@@ -16,10 +16,13 @@ STATUS_REPLY = '{"status":'
 CONFIG_REPLY = '{"axisMins":'
 LIST_REPLY = '{"dir":'
 FILE_REPLY = '{"err":0,"fileName":'
+OLD_FILE_REPLY = '{"err":0,"size":'
+"""The same before 3.1, which names the file last, and only where it is the one being printed."""
+
 NO_FILE_REPLY = '{"err":1'
 THUMBNAIL_REPLY = '{"thumbnail":'
 
-FILE_REPLIES = (FILE_REPLY, NO_FILE_REPLY, THUMBNAIL_REPLY)
+FILE_REPLIES = (FILE_REPLY, OLD_FILE_REPLY, NO_FILE_REPLY, THUMBNAIL_REPLY)
 
 REPLY_STARTS = (
     MODEL_REPLY,
@@ -39,13 +42,15 @@ _NUMBER = r'(?:"line":[0-9]{1,10},)?'
 """Current firmware (3.6.2 and newer, Duet3D/RepRapFirmware #1178) puts the number of the command
 into the answer to a numbered one, mostly as the first member; its place isn't promised."""
 
-_STARTS = (*(start[1:] for start in REPLY_STARTS if start != FILE_REPLY), '"err":-1,"line":')
+_TOLD = (FILE_REPLY, OLD_FILE_REPLY)
+
+_STARTS = (*(start[1:] for start in REPLY_STARTS if start not in _TOLD), '"err":-1,"line":')
 """What a reply begins with behind its brace, and perhaps behind that member."""
 
 _START = re.compile(
     rf"{_NOT_INSIDE}\{{{_NUMBER}(?:"
     + "|".join(map(re.escape, _STARTS))
-    + rf'|"err":0,{_NUMBER}"fileName":)'
+    + rf'|"err":0,{_NUMBER}"(?:fileName|size)":)'
 )
 """The start of a reply that isn't a part of something else."""
 

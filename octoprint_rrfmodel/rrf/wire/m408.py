@@ -12,6 +12,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..model.merge import patched
+from .m408_job import (
+    LEGACY_OF_A_JOB,
+    OF_A_JOB,
+    WITHOUT_JOB,
+    file_of,
+    has_ended,
+    is_another,
+    put_job,
+)
 from .m408_table import CONFIG_FIELDS, LEGACY, STATUS_FIELDS, Row
 
 _STEP = re.compile(r"([^.\[\]]+)|\[(\d*)\]")
@@ -31,23 +40,6 @@ _NONSENSE = (TypeError, ValueError, LookupError, ArithmeticError, AttributeError
 MOST_HEATERS = 64
 """A heater's number from here on is a spoilt one; no firmware has as many."""
 
-OF_A_JOB = frozenset(
-    (
-        "currentLayer",
-        "currentLayerTime",
-        "filePosition",
-        "firstLayerDuration",
-        "fractionPrinted",
-        "printDuration",
-        "timesLeft",
-        "warmUpDuration",
-    )
-)
-"""Members that S4 has while something is printed; once it has ended they are merely missing."""
-
-WITHOUT_JOB = ("C", "F", "H", "I", "O")
-"""Letters of S2 and above with which nothing is printed."""
-
 
 class M408Model:
     """Collects the forms that come and gives the model they make."""
@@ -56,19 +48,24 @@ class M408Model:
         self._legacy: dict[str, Any] = {}
         self._status: dict[str, Any] = {}
         self._config: dict[str, Any] = {}
+        self._file: dict[str, Any] = {}
         self._before = self._forms()
 
-    def _forms(self) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-        return self._legacy, self._status, self._config
+    def _forms(self) -> tuple[dict[str, Any], ...]:
+        return self._legacy, self._status, self._config, self._file
 
     def undo(self) -> None:
         """Forget the last reply: it doesn't count."""
-        self._legacy, self._status, self._config = self._before
+        self._legacy, self._status, self._config, self._file = self._before
 
     def take(self, fields: dict[str, Any]) -> dict[str, Any]:
         """Keep a reply of whatever form and return the whole model, by top-level key."""
         self._before = self._forms()
         if "heaters" in fields:
+            if has_ended(fields):
+                self._legacy = _without_job(self._legacy)
+                # what a form tells that isn't asked again is no witness
+                self._file = self._file if self._status else {}
             self._legacy = patched(self._legacy, fields)[0]
             if fields.get("msgBox.mode") == -1:
                 self._legacy = _without_box(self._legacy)
@@ -76,10 +73,18 @@ class M408Model:
             # a box, a beep and a message are only there while they last
             gone = {"output"} if fields["status"] not in WITHOUT_JOB else {"output", *OF_A_JOB}
             lasting = {name: value for name, value in self._status.items() if name not in gone}
+            if is_another(self._status, fields):
+                self._file = {}
             self._status = patched(lasting, fields)[0]
-            self._legacy = _without_box(self._legacy)
+            self._legacy = _without_job(_without_box(self._legacy))
         else:
             self._config = patched(self._config, fields)[0]
+        return self.model()
+
+    def take_file(self, fields: dict[str, Any]) -> dict[str, Any]:
+        """Keep what ``M36`` tells of the file being printed; return the whole model."""
+        self._before = self._forms()
+        self._file = file_of(fields)
         return self.model()
 
     def model(self) -> dict[str, Any]:
@@ -103,6 +108,7 @@ class M408Model:
             # a row for a member of each element says nothing of a list without any
             model["tools"] = []
         if model:
+            put_job(model, self._file)
             _complete(model)
         return model
 
@@ -110,6 +116,11 @@ class M408Model:
 def _without_box(fields: dict[str, Any]) -> dict[str, Any]:
     """Return the members of S0 without those of a message box."""
     return {name: value for name, value in fields.items() if not name.startswith("msgBox.")}
+
+
+def _without_job(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the members of S0 without those of a job."""
+    return {name: value for name, value in fields.items() if name not in LEGACY_OF_A_JOB}
 
 
 def _place(

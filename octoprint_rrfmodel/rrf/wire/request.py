@@ -11,6 +11,7 @@ from .line import (
     LIST_REPLY,
     MODEL_REPLY,
     NO_FILE_REPLY,
+    OLD_FILE_REPLY,
     STATUS_REPLY,
     THUMBNAIL_REPLY,
 )
@@ -98,6 +99,20 @@ class FileRequest(NamedTuple):
         return (FILE_REPLY, NO_FILE_REPLY)
 
 
+class JobFileRequest(NamedTuple):
+    """``M36`` without a name: the file being printed, of which ``M408`` tells nothing."""
+
+    @property
+    def line(self) -> str:
+        """The G-code."""
+        return "M36"
+
+    @property
+    def begins(self) -> tuple[str, ...]:
+        """How its answers begin."""
+        return (OLD_FILE_REPLY, FILE_REPLY, NO_FILE_REPLY)
+
+
 class PieceRequest(NamedTuple):
     """One ``M36.1``: a piece of a thumbnail, from a place in the file on."""
 
@@ -115,4 +130,5 @@ class PieceRequest(NamedTuple):
         return (THUMBNAIL_REPLY,)
 
 
-Request = Union[ModelRequest, StatusRequest]
+Request = Union[ModelRequest, StatusRequest, JobFileRequest]
+"""What the model is followed by."""

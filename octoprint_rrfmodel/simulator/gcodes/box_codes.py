@@ -7,6 +7,7 @@ from typing import Any
 from ..clock import Clock
 from ..device.boxes import CANCEL_MODE, CHOICE_MODE, CLOSE_MODE, MessageBoxes
 from ..firmware import Firmware
+from ..hardware.blank import USB_CHANNELS
 from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import MacroAbandoned, Outcome, Running, Silently
@@ -57,7 +58,7 @@ class BoxCodes:
         )
         if mode >= CHOICE_MODE:
             arguments.update(_limits(command, mode))
-        from_usb = channel.name == "USB"
+        from_usb = channel.name in USB_CHANNELS
         if from_usb:
             self._print(title, message, mode)
         if not from_usb or self._firmware.usb_box_opens:

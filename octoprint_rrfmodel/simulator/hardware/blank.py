@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..firmware import Firmware
+
+USB = "USB"
+"""The channel that a host talks on."""
+
 INPUT_NAMES = (
     "HTTP",
     "Telnet",
     "File",
-    "USB",
+    USB,
     "Aux",
     "Trigger",
     "Queue",
@@ -19,11 +24,18 @@ INPUT_NAMES = (
     "Autopause",
     "File2",
     "Queue2",
+    "USB2",
 )
-"""Channels in the order of their index in ``inputs`` (RRF 3.5 GCodeChannel.h)."""
+"""Channels in the order of their index in ``inputs`` (RRF 3.5 GCodeChannel.h).
 
+The last one stands for the second channel over USB of 3.7 (RRF #1156), whose name and place were
+not to be had.
+"""
+
+USB_CHANNELS = (USB, "USB2")
 INPUTS_SINCE_35 = ("File2", "Queue2")
-MARLIN_CHANNELS = ("Telnet", "USB")
+INPUTS_SINCE_37 = ("USB2",)
+MARLIN_CHANNELS = ("Telnet", *USB_CHANNELS)
 """The channels that start in Marlin compatibility (RRF 3.5 GCodes.cpp:110, 122)."""
 
 NO_TAPER = float("nan")
@@ -102,8 +114,13 @@ def no_job() -> dict[str, Any]:
     }
 
 
-def input_list(release_35: bool, has_sbc: bool, aux2: bool) -> list[dict[str, Any] | None]:
+def input_list(firmware: Firmware, has_sbc: bool, aux2: bool) -> list[dict[str, Any] | None]:
     """Return ``inputs``; channels that the board doesn't have are null, later ones are missing."""
     missing = {"SBC": not has_sbc, "Aux2": not aux2, "File2": not aux2, "Queue2": not aux2}
-    names = [n for n in INPUT_NAMES if release_35 or n not in INPUTS_SINCE_35]
+    later: set[str] = set()
+    if not firmware.at_least(3, 7):
+        later.update(INPUTS_SINCE_37)
+    if not firmware.at_least(3, 5):
+        later.update(INPUTS_SINCE_35)
+    names = [n for n in INPUT_NAMES if n not in later]
     return [None if missing.get(name) else gcode_input(name) for name in names]

@@ -220,7 +220,6 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
     axes = len(move["axes"])
     seqs: dict[str, Any] = {name: 0 for name in SEQS.split()}
     seqs["volChanges"] = [0, 0]
-    release_35 = firmware.at_least(3, 5)
     model = {
         "boards": [board.model(firmware)]
         + [toolboard(address, firmware) for address in machine.tool_boards],
@@ -234,7 +233,7 @@ def full_model(machine: Machine, firmware: Firmware) -> dict[str, Any]:
             "coldRetractTemperature": 90.0,
             "heaters": machine.heaters(),
         },
-        "inputs": blank.input_list(release_35, not board.is_duet2, not board.is_duet2),
+        "inputs": blank.input_list(firmware, not board.is_duet2, not board.is_duet2),
         "job": blank.no_job(),
         "ledStrips": [
             {"board": 0, "pin": pin, "stopMovement": True, "type": kind}

@@ -7,9 +7,6 @@ $(function () {
         fix_profile: "SETTINGS"
     };
 
-    /** The key of what the machine's display shows: one notification, whatever it says. */
-    const MESSAGE = "message";
-
     const TYPES = {fault: "error", warning: "notice"};
 
     function RrfModelNotificationsViewModel(parameters) {
@@ -32,7 +29,7 @@ $(function () {
             const told = new Set(
                 warnings.flatMap((warning) => (warning.causes || []).map((cause) => cause.code))
             );
-            const found = warnings
+            return warnings
                 .filter((warning) => warning.level !== "advice" && !told.has(warning.code))
                 .map((warning) => ({
                     // why a print is paused may change while it is
@@ -41,9 +38,6 @@ $(function () {
                     type: TYPES[warning.level] || "error",
                     warning: warning
                 }));
-            const message = core.isRrf() ? (core.model("state") || {}).displayMessage : "";
-            if (message) found.push({key: MESSAGE, text: message, type: "info"});
-            return found;
         });
 
         /** The part of a notification that has the button, for those who may press it. */
@@ -68,17 +62,10 @@ $(function () {
         const tell = (item) =>
             core.notify(item.text, item.type, {hide: false, confirm: confirmation(item.warning)});
 
-        const again = function (notice, item) {
-            // one that was closed is not opened by every layer's message
-            if (notice.options.text !== item.text) notice.update({text: item.text});
-            return notice;
-        };
-
         const update = function (items) {
             const next = new Map();
             items.forEach(function (item) {
-                const notice = told.get(item.key);
-                next.set(item.key, notice ? again(notice, item) : tell(item));
+                next.set(item.key, told.get(item.key) || tell(item));
             });
             told.forEach((notice, key) => next.has(key) || notice.remove());
             told = next;

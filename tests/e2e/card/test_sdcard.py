@@ -23,6 +23,9 @@ LISTED = len(FILES)
 LISTED_SECONDS = 15
 PRINT_SECONDS = 60
 
+BY_PROTOCOL = pytest.mark.parametrize("firmware", ["3.5.3", "2.05"])
+"""What is known of the job comes by ``M409``, or by ``M408`` and ``M36``."""
+
 
 @pytest.fixture(scope="module")
 def location(octoprint_version):
@@ -104,7 +107,7 @@ def assert_no_harm(board):
 
 
 @pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.3", "3.6", "3.7"])
 def test_card_is_listed(server, connected, files, firmware):
     board = connected(firmware=firmware)
     assert server.get("/api/printer").json()["sd"] == {"ready": True}
@@ -193,7 +196,7 @@ def test_file_is_selected(server, connected, select, files, name):
 @pytest.mark.both_hosts("each has its own code for the card", once_for=("machine", "firmware"))
 @pytest.mark.parametrize(
     "machine, firmware",
-    [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.6")],
+    [("cartesian", "2.05"), ("cnc", "3.3"), ("cartesian", "3.5.3"), ("toolchanger", "3.7")],
 )
 def test_print_pause_resume_cancel(server, connected, select, machine, firmware):
     board = connected(machine=machine, firmware=firmware)
@@ -252,8 +255,10 @@ def test_pause_that_is_put_off_is_waited_for(server, connected, select):
     assert_no_harm(board)
 
 
-def test_print_to_its_end_and_another(server, connected, select):
-    board = connected()
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@BY_PROTOCOL
+def test_print_to_its_end_and_another(server, connected, select, firmware):
+    board = connected(firmware=firmware)
     with PushListener(server, ADMIN) as push:
         for name in ("Two layers.gcode", "Prüfkörper ø20.gcode"):
             done = len(push.events("PrintDone"))
@@ -266,8 +271,10 @@ def test_print_to_its_end_and_another(server, connected, select):
     assert_no_harm(board)
 
 
-def test_job_of_the_machine_is_shown(server, connected, select):
-    board = connected()
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@BY_PROTOCOL
+def test_job_of_the_machine_is_shown(server, connected, select, firmware):
+    board = connected(firmware=firmware)
     select("square.gcode")
     name = "Spare parts/ver 2/clip.gcode"
     with PushListener(server, ADMIN) as push:
@@ -285,8 +292,10 @@ def test_job_of_the_machine_is_shown(server, connected, select):
     assert_no_harm(board)
 
 
-def test_job_that_goes_on_when_octoprint_connects(server, connected, board_factory, files):
-    board = board_factory(speed=5.0)
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@BY_PROTOCOL
+def test_job_that_goes_on_when_octoprint_connects(server, board_factory, firmware):
+    board = board_factory(speed=5.0, firmware=firmware)
     board.board.execute(f'M32 "{FILES["square.gcode"]}"', channel="http")
     helpers.connect(server, board)
     wait_printing(server)
@@ -311,8 +320,10 @@ def test_job_that_begins_before_octoprint_has_the_list(server, board_factory, fi
     assert "Something crashed" not in server.log()
 
 
-def test_job_paused_and_cancelled_at_the_machine(server, connected, select):
-    board = connected()
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@BY_PROTOCOL
+def test_job_paused_and_cancelled_at_the_machine(server, connected, select, firmware):
+    board = connected(firmware=firmware)
     select("square.gcode", start=True)
     wait_printing(server)
     board.board.execute("M25", channel="http")
@@ -354,10 +365,12 @@ def started_by_script(server):
             yield
 
 
+@pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
+@BY_PROTOCOL
 def test_job_of_the_machine_gets_none_of_octoprints_scripts(
-    server, connected, select, started_by_script
+    server, connected, select, started_by_script, firmware
 ):
-    board = connected()
+    board = connected(firmware=firmware)
     board.board.execute(f'M32 "{FILES["Two layers.gcode"]}"', channel="http")
     with PushListener(server, ADMIN) as push:
         wait_printing(server)

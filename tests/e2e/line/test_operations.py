@@ -19,7 +19,7 @@ MOVED = on(
     "one tool 2.05",
     "one tool 3.3",
     "one tool 3.5.3",
-    "one tool 3.6",
+    "one tool 3.7",
     "changer 2.05",
     "changer 3.6",
     "no tools 2.05",

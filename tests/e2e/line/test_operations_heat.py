@@ -8,7 +8,7 @@ pytestmark = pytest.mark.both_hosts(
     "each has its own code for the serial line", once_for=("machine",)
 )
 
-TOOLED = on("one tool 2.05", "one tool 3.3", "one tool 3.5.3", "one tool 3.6")
+TOOLED = on("one tool 2.05", "one tool 3.3", "one tool 3.5.3", "one tool 3.7")
 CHANGERS = on("changer 2.05", "changer 3.3", "changer 3.5.3", "changer 3.6")
 BARE = on("no tools 2.05", "no tools 3.3", "no tools 3.5.3", "no tools 3.6")
 TWO_BEDS = on("two beds 2.05", "two beds 3.3", "two beds 3.6")
@@ -153,7 +153,7 @@ def test_a_tool_that_does_not_exist_is_not_sent(machine):
 
 
 @on(
-    "one tool 2.05", "one tool 3.3", "one tool 3.6", "changer 2.05", "changer 3.5.3", "two beds 3.6"
+    "one tool 2.05", "one tool 3.3", "one tool 3.7", "changer 2.05", "changer 3.5.3", "two beds 3.6"
 )
 def test_extruding_keeps_the_mode_and_needs_heat(machine):
     number = max(tool["number"] for tool in machine.board.model["tools"] if tool)
@@ -174,7 +174,7 @@ def test_extruding_keeps_the_mode_and_needs_heat(machine):
 
 
 @pytest.mark.parametrize("factor, share", [(95, 0.95), (1.1, 1.1)], ids=["percent", "fraction"])
-@on("one tool 2.05", "one tool 3.6", "changer 3.3", "changer 3.5.3", "two beds 3.6")
+@on("one tool 2.05", "one tool 3.7", "changer 3.3", "changer 3.5.3", "two beds 3.6")
 def test_flowrate_is_that_of_the_current_tool(machine, factor, share):
     number = max(tool["number"] for tool in machine.board.model["tools"] if tool)
     assert machine.wire("tool", command="flowrate", factor=factor) == []

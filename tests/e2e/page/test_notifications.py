@@ -43,16 +43,16 @@ def test_why_a_print_is_paused_is_told_once(page, told, server, board, page_erro
     assert own_errors(page_errors) == []
 
 
-def test_what_the_display_shows_is_one_notification(page, told, server, board):
+def test_row_26_display_text_is_in_the_sidebar_and_no_notification(page, told, server, board):
+    shown = page.locator("#sidebar_plugin_rrfmodel [data-test=message]")
     kept = page.evaluate("PNotify.notices.length")
+    # as layers of a print are told, also by DisplayLayerProgress
     for layer in range(1, 5):
         board.board.execute(f'M117 "Layer {layer} <b>"', channel="http")
-        about = told.filter(has_text="Layer")
-        expect(about).to_have_text(f"Layer {layer} <b>", timeout=PATIENCE_MS)
-        expect(about).to_have_count(1)
+        expect(shown).to_have_text(f"Layer {layer} <b>", timeout=PATIENCE_MS)
+        expect(told.filter(has_text="Layer")).to_have_count(0)
     board.board.execute('M117 ""', channel="http")
-    expect(told.filter(has_text="Layer")).to_have_count(0, timeout=PATIENCE_MS)
-    # and none is kept behind the page's back
+    expect(shown).to_have_count(0, timeout=PATIENCE_MS)
     page.wait_for_function("(kept) => PNotify.notices.length <= kept", arg=kept)
 
 

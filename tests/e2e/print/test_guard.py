@@ -177,7 +177,7 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         assert paused(push) == [notice]
 
 
-@pytest.mark.parametrize("firmware", ["3.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["3.3", "3.6", "3.7"])
 def test_heater_fault_by_firmware(server, printing, firmware):
     board = printing(firmware=firmware)
     started = time.monotonic()

@@ -6,7 +6,7 @@ from .. import helpers
 from ..operations import PROFILE, Machine
 
 # the lines for those between are proven without a server, tests/rrf/gcode/test_commands_lines.py
-FIRMWARE = ("2.05", "3.6")
+FIRMWARE = ("2.05", "3.7")
 HOT_SECONDS = 120
 
 

@@ -39,7 +39,7 @@ def server(module_server_factory):
     return module_server_factory(profile=PROFILE)
 
 
-@pytest.fixture(scope="module", params=["2.05", "3.4", "3.6"])
+@pytest.fixture(scope="module", params=["2.05", "3.4", "3.6", "3.7"])
 def machine(request, server, module_board_factory):
     board = module_board_factory(firmware=request.param, speed=5)
     helpers.connect(server, board)

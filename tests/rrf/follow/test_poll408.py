@@ -3,8 +3,15 @@
 import pytest
 
 from octoprint_rrfmodel.rrf.follow.follower import NOT_SUPPORTED_AFTER, Follower
+from octoprint_rrfmodel.rrf.follow.poll408 import FILE_EVERY
+from octoprint_rrfmodel.rrf.views.job import card_job, progress
 from octoprint_rrfmodel.rrf.wire.reply import MalformedReply
-from octoprint_rrfmodel.rrf.wire.request import LIVE_FLAGS, ModelRequest, StatusRequest
+from octoprint_rrfmodel.rrf.wire.request import (
+    LIVE_FLAGS,
+    JobFileRequest,
+    ModelRequest,
+    StatusRequest,
+)
 
 from ..board import Board, serve
 from ..strategies import compact, model_reply
@@ -38,12 +45,15 @@ FORMS = range(6)
 class OldBoard:
     """Answers ``M408`` in the forms that it knows."""
 
-    def __init__(self, forms=FORMS):
+    def __init__(self, forms=FORMS, file=None):
         self.replies = {form: dict(REPLIES[form]) for form in forms}
+        self.file = file
         self.asked = []
 
     def reply(self, request):
         self.asked.append(request)
+        if isinstance(request, JobFileRequest) and self.file is not None:
+            return compact(self.file)
         if isinstance(request, StatusRequest) and request.form in self.replies:
             return compact(self.replies[request.form])
         return None
@@ -54,7 +64,8 @@ class OldBoard:
                 self.replies[form].update(members)
 
     def forms_asked(self, since):
-        return [request.form for request in self.asked[since:]]
+        asked = self.asked[since:]
+        return [request.form for request in asked if isinstance(request, StatusRequest)]
 
 
 def run(follower, board, requests=1, refuse=True):
@@ -296,3 +307,124 @@ def test_m409_reply_of_whatever_key_shows_that_it_is_known():
     serve(follower, board, 40)
     assert follower.protocol == "M409"
     assert follower.store.model == board.model, "nothing of M408 is left"
+
+
+FILE = {
+    "err": 0,
+    "size": 2000,
+    "height": 5.0,
+    "filament": [12.5],
+    "generatedBy": "slicer",
+    "printDuration": 10,
+    "fileName": "0:/gcodes/a.gcode",
+}
+"""An answer to M36 without a name, as firmware 2.05 gives it."""
+
+
+def printing(forms=FORMS, file=FILE, **members):
+    board = OldBoard(forms, file)
+    follower = following(board)
+    board.set(status="P", **members)
+    run(follower, board, 3)
+    return board, follower
+
+
+def job_of(follower):
+    return follower.store.model.get("job", {})
+
+
+def file_name(follower):
+    return job_of(follower).get("file", {}).get("fileName")
+
+
+def test_row_24_file_being_printed_is_asked_for_and_has_its_place():
+    board, follower = printing(fractionPrinted=25.0, printDuration=10.0)
+    file = job_of(follower)["file"]
+    assert file == {
+        "fileName": "0:/gcodes/a.gcode",
+        "size": 2000,
+        "height": 5.0,
+        "filament": [12.5],
+        "generatedBy": "slicer",
+    }
+    assert job_of(follower)["filePosition"] == 500
+    assert card_job(follower.store.model) == ("processing", "0:/gcodes/a.gcode", 2000, 500)
+
+
+def test_row_24_position_that_is_told_comes_first():
+    _, follower = printing(fractionPrinted=25.0, filePosition=480)
+    assert job_of(follower)["filePosition"] == 480
+
+
+@pytest.mark.parametrize("forms", [(0, 1), (0,)])
+def test_row_24_share_of_s0_gives_the_position(forms):
+    board, follower = printing(forms, fraction_printed=0.5)
+    assert card_job(follower.store.model) == ("processing", "0:/gcodes/a.gcode", 2000, 1000)
+    board.set(status="I")
+    for form in forms:
+        del board.replies[form]["fraction_printed"]
+    run(follower, board)
+    assert file_name(follower) is None
+    assert "filePosition" not in job_of(follower)
+    assert progress(follower.store.model) is None
+
+
+def test_row_24_name_without_a_folder_is_one_of_the_g_codes():
+    _, follower = printing(file={**FILE, "fileName": "a.gcode"})
+    assert file_name(follower) == "0:/gcodes/a.gcode"
+
+
+def test_row_24_file_is_gone_with_its_job():
+    board, follower = printing()
+    board.set(status="I")
+    run(follower, board)
+    assert file_name(follower) is None
+    asked = len(board.asked)
+    run(follower, board, 30)
+    assert JobFileRequest() not in board.asked[asked:]
+
+
+def test_row_24_next_job_never_has_the_name_of_the_one_before():
+    board, follower = printing(printDuration=90.0)
+    board.set(printDuration=2.0)
+    board.file = {**FILE, "fileName": "0:/gcodes/b.gcode"}
+    run(follower, board)
+    assert file_name(follower) is None
+    run(follower, board)
+    assert file_name(follower) == "0:/gcodes/b.gcode"
+
+
+def test_row_24_another_file_is_noticed_however_it_came():
+    board, follower = printing()
+    board.file = {**FILE, "fileName": "0:/gcodes/b.gcode"}
+    run(follower, board, FILE_EVERY + 2)
+    assert file_name(follower) == "0:/gcodes/b.gcode"
+
+
+def test_row_24_board_that_tells_no_file_is_not_asked_for_ever():
+    board, follower = printing(file=None)
+    asked = len(board.asked)
+    run(follower, board, 60)
+    assert board.asked[asked:].count(JobFileRequest()) <= 2
+    assert (follower.protocol, follower.ready) == ("M408", True)
+    board.set(status="I")
+    run(follower, board)
+    board.set(status="P")
+    board.file = FILE
+    run(follower, board, 3)
+    assert file_name(follower) == "0:/gcodes/a.gcode"
+
+
+def test_row_24_no_file_yet_is_asked_again():
+    board, follower = printing(file={"err": 1})
+    assert file_name(follower) is None
+    board.file = FILE
+    run(follower, board, FILE_EVERY + 2)
+    assert file_name(follower) == "0:/gcodes/a.gcode"
+
+
+@pytest.mark.parametrize("odd", [None, [], {}, "x", -1, 1e300, True])
+def test_row_24_members_that_make_no_sense_are_left_out(odd):
+    _, follower = printing(file={**FILE, "size": odd, "height": odd, "filament": [odd]})
+    assert "size" not in job_of(follower)["file"]
+    assert file_name(follower) == "0:/gcodes/a.gcode"

@@ -14,7 +14,7 @@ OLD = ("2.05",)
 EXPRESSIONS = ("3.2",)
 """With expressions, without M568."""
 
-CURRENT = ("3.3", "3.5.3", "3.6")
+CURRENT = ("3.3", "3.5.3", "3.6", "3.7")
 SINCE_3 = EXPRESSIONS + CURRENT
 BEFORE_M568 = OLD + EXPRESSIONS
 ALL = OLD + SINCE_3

@@ -209,7 +209,7 @@ def test_coordinates_have_four_entries(machine):
         assert len(get(at, name, field)) == 4
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6", "3.7"])
 def test_machine_position_is_user_position_and_babystep(firmware):
     machine = Machine("cartesian", firmware)
     machine.send("G28")

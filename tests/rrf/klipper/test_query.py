@@ -62,7 +62,7 @@ def test_list_of_a_machine(machine, some):
     assert some <= set(names(world(model_of(machine))))
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6", "3.7"])
 def test_what_is_not_there_is_not_listed(firmware):
     listed = set(names(world(model_of("cnc", firmware))))
     assert not {"extruder", "heater_bed", "fan", "probe", "heater_generic chamber"} & listed

@@ -70,7 +70,7 @@ def test_monitors_are_named_after_their_extruders():
     assert "filament_switch_sensor extruder3" in names(world(model))
 
 
-@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.3", "3.6", "3.7"])
 def test_simulated_monitor_is_enabled(firmware):
     at = world(model_of("cartesian", firmware))
     assert get(at, "filament_switch_sensor extruder0", "enabled") is True
@@ -138,7 +138,7 @@ def test_no_probe(probes):
     assert "probe" not in names(world({"sensors": {"probes": probes}}))
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.6", "3.7"])
 def test_simulated_probes(firmware):
     assert "probe" in names(world(model_of("cartesian", firmware)))
     assert "probe" not in names(world(model_of("cnc", firmware)))

@@ -50,7 +50,7 @@ def captured(shared_dir):
     return found
 
 
-@pytest.mark.parametrize("firmware", ["2.05", "3.4", "3.5.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["2.05", "3.4", "3.5.3", "3.6", "3.7"])
 @pytest.mark.parametrize("machine", sorted(MACHINES))
 def test_every_value_has_a_meaning(machine, firmware):
     model = Simulated(machine, firmware).model()

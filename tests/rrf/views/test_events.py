@@ -548,7 +548,9 @@ def is_idle(model):
     return model["state"]["status"] == "idle"
 
 
-FIRMWARES = pytest.mark.parametrize("firmware", ["2.05", "3.3", "3.4", "3.5.1", "3.5.3", "3.6"])
+FIRMWARES = pytest.mark.parametrize(
+    "firmware", ["2.05", "3.3", "3.4", "3.5.1", "3.5.3", "3.6", "3.7"]
+)
 
 
 @FIRMWARES
@@ -600,7 +602,7 @@ def test_print_that_is_cancelled(firmware):
     assert words[-1] == "idle"
 
 
-@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.3", "3.6"])
+@pytest.mark.parametrize("firmware", ["3.3", "3.4", "3.5.3", "3.6", "3.7"])
 def test_emergency_stop_and_reset(firmware):
     machine = Followed("cartesian", firmware)
     machine.connect()

@@ -89,6 +89,7 @@ def job(**members):
         (job(file={**FILE, "height": 0.0}), "total_height", None),
         (job(file={**FILE, "size": 0}), "fraction", None),
         (job(filePosition=3000), "fraction", 1.0),
+        ({**job(file=None), "m408": {"fractionPrinted": 40.0}}, "fraction", 0.4),
         (job(file={**FILE, "fileName": "1:/a.gcode"}), "name", "1:/a.gcode"),
         (job(file=None), "name", ""),
         (job(timesLeft={"file": 900, "filament": None, "slicer": None}), "seconds_left", 900.0),

@@ -32,9 +32,10 @@ def drivers(*statuses, **board):
     return {"boards": [{"drivers": [{"status": status} for status in statuses], **board}]}
 
 
-def usb(state, version, name="USB"):
+def usb(state, version, name="USB", number=None):
     return {
         "boards": [{"firmwareVersion": version}],
+        "state": {"thisInput": number},
         "inputs": [{"name": "HTTP", "state": "idle"}, None, {"name": name, "state": state}],
     }
 
@@ -162,6 +163,9 @@ def test_message_box(version, found):
     assert faults(model) == []
     assert warnings_of(usb("executing", version)) == []
     assert warnings_of(usb("awaitingAcknowledgement", version, name="HTTP")) == []
+    # OctoPrint on a serial port of the board
+    waiting = warnings_of(usb("awaitingAcknowledgement", version, name="Aux", number=2))
+    assert waiting == warnings_of(model)
 
 
 def test_filament_is_nobodys_concern_while_nothing_is_printed():

@@ -21,6 +21,7 @@ NO_ROOM = '{"err":-1}'
 NAN = '{"status":"I","pos":[nan,-nan,inf,0.000]}'
 FOLDER = '{"dir":"0:/","files":[{"type":"f","name":"{\\"key\\":"}],"next":0}'
 FILE = '{"err":0,"fileName":"a.g","customInfo":{"key":"x","status":1}}'
+OLD_FILE = '{"err":0,"size":5,"generatedBy":"x","printDuration":1,"fileName":"a.g"}'
 NO_FILE = '{"err":1,"fileName":"a.g"}'
 PIECE = '{"thumbnail":{"fileName":"a.g","offset":5,"data":"QUJD","next":0,"err":0}}'
 SPOILT = '{"status":"I","machine":[150.000 ,150.005.000],"time":1}'
@@ -38,6 +39,7 @@ FOUND = {
     "folder": (FOLDER + "\n", FOLDER, ""),
     "file information with a slicer's members": (FILE + "\n", FILE, ""),
     "file information, ok behind": (FILE + "ok", FILE, "ok"),
+    "file being printed before 3.1": (OLD_FILE + "\n", OLD_FILE, ""),
     "file that isn't there": (NO_FILE, NO_FILE, ""),
     "piece of a thumbnail, glued before": (UNDER_VOLTAGE + PIECE, PIECE, UNDER_VOLTAGE),
     "no buffers": (NO_ROOM + "\n", NO_ROOM, ""),

@@ -34,6 +34,19 @@ FIELDS = (
 )
 """Members of M36 in the order they are printed."""
 
+OLD_FIELDS = (
+    "size",
+    "lastModified",
+    "height",
+    "firstLayerHeight",
+    "layerHeight",
+    "printTime",
+    "simulatedTime",
+    "filament",
+    "generatedBy",
+)
+"""The same before 3.1, where a name is told only of the file being printed, as the last member."""
+
 HEIGHTS = ("height", "firstLayerHeight", "layerHeight")
 """Printed with decimals even where they are 0."""
 
@@ -41,11 +54,20 @@ HEIGHTS = ("height", "firstLayerHeight", "layerHeight")
 class Information:
     """Tells about files, and gives their thumbnails."""
 
-    def __init__(self, *, model: ObjectModel, card: Card, job: Job, model_text: ModelText):
+    def __init__(
+        self,
+        *,
+        model: ObjectModel,
+        card: Card,
+        job: Job,
+        model_text: ModelText,
+        has_model: bool = True,
+    ):
         self._model = model
         self._card = card
         self._job = job
         self._model_text = model_text
+        self._has_model = has_model
 
     def rows(self) -> Rows:
         return {
@@ -66,10 +88,10 @@ class Information:
         else:
             found = self._job.path if self._job.is_printing else None
             path = shown = found or ""
-            extra = f'"printDuration":{int(self._job.duration)},'
+            extra = f'"printDuration":{int(self._job.duration)}'
         content = self._card.read(found) if found else None
         if found is None or content is None:
-            return f'{{"err":1,"fileName":{quoted(name)}}}'
+            return f'{{"err":1,"fileName":{quoted(name)}}}' if self._has_model else '{"err":1}'
         info = self._model.members_of(file_info(path, content, self._card.date(found)), "job.file")
         info["fileName"] = shown
         return Reply(self._text_of(info, extra) + "}\n", Kind.LONG)
@@ -78,11 +100,13 @@ class Information:
         """Return the members; the name is the one asked for (seen in firmware)."""
         shown = with_decimals(info, self._model_text.decimals["job"]["file"])
         text = '{"err":0'
-        for field in FIELDS:
+        for field in FIELDS if self._has_model else OLD_FIELDS:
             if field not in shown or shown[field] is None and field != "generatedBy":
                 continue
-            before = extra if field == "thumbnails" else ""
+            before = f"{extra}," if extra and field == "thumbnails" else ""
             text += f",{before}{quoted(field)}:{_shown(field, shown[field])}"
+        if extra and not self._has_model:
+            text += f',{extra},"fileName":{quoted(info["fileName"])}'
         return text
 
     def _thumbnail(self, channel: Channel, command: Command) -> Outcome:
