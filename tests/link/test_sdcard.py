@@ -11,6 +11,7 @@ from octoprint_rrfmodel.host.tags import SWALLOWED
 from octoprint_rrfmodel.link.serial.sdcard import LONG_NAMES, SdCard
 from octoprint_rrfmodel.link.serial.sdjob import CANCEL_SECONDS, PREFIX, SdJob
 from octoprint_rrfmodel.link.serial.sdupload import UploadRefusal
+from octoprint_rrfmodel.link.serial.serial_link import SerialLink
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from octoprint_rrfmodel.rrf.wire.reply import FolderEntry, FolderPage
 
@@ -333,6 +334,38 @@ def test_paused_print_that_was_ended_at_the_machine_is_ended_once_and_sends_noth
     # the next one is ended as ever
     bench.shows("square.gco", "printing")
     assert bench.card.translate("M25", "M25", CANCEL).lines == ("M25", "M400 M0")
+
+
+@pytest.mark.parametrize(
+    ("state", "is_ended", "done"),
+    [
+        ("printing", False, True),
+        ("cancelling", False, True),
+        # the board's job is the next one, and OctoPrint would do nothing to it
+        ("cancelling", True, False),
+        ("finishing", False, False),
+    ],
+)
+@pytest.mark.parametrize(
+    ("action", "method"), [("pause", "pause_print"), ("cancel", "cancel_print")]
+)
+def test_what_octoprint_still_says_of_a_print_that_is_over_takes_nothing_from_the_next(
+    bench, state, is_ended, done, action, method
+):
+    asked = []
+    printer = SimpleNamespace(**{method: lambda: asked.append(method)})
+    link = SerialLink(lambda: printer, dict, lambda: bench.now)
+    link.attach(bench.card)
+    link.connection = bench.comm
+    bench.card.fill()
+    bench.shows("square.gco", "paused" if is_ended else state)
+    if is_ended:
+        bench.status("idle")
+        bench.status("idle")
+        assert bench.card.fill() == "// action:cancel"
+        bench.comm.state = state
+    assert link.control_card_job(action) is done
+    assert asked == ([method] if done else [])
 
 
 DONE = "Done printing file"

@@ -115,6 +115,10 @@ class SdCard:
         """Return whether the board has a job that OctoPrint has nothing to do with."""
         return self._job.is_others(comm, self._index)
 
+    def is_over(self, comm):
+        """Return whether the print that OctoPrint shows has ended, which it is only yet to say."""
+        return self._job.is_over(comm)
+
     def end_job(self):
         """Return the lines that end the board's job, and see to it that they do."""
         return self._job.cancel("M25").lines

@@ -67,6 +67,10 @@ class SdJob:
         """Return whether the board has a job that OctoPrint has nothing to do with."""
         return self._origin.is_others(comm, lambda path: _is_selected(comm, index, path))
 
+    def is_over(self, comm):
+        """Return whether the print that OctoPrint shows has ended, which it is only yet to say."""
+        return comm.isFinishing() or (comm.isCancelling() and self._origin.is_ended(comm))
+
     def cancel(self, gcode, comm=None):
         """Return what goes out in the place of a command by which OctoPrint cancels.
 

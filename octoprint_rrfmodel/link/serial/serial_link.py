@@ -227,6 +227,9 @@ class SerialLink(Link):
         # printed by then
         if comm is None or not comm.isSdFileSelected() or not does_it(comm):
             return False
+        # and what it still has to say of one that is over is nothing to do with the next
+        if self._card.is_over(comm):
+            return False
         getattr(self._printer(), method)()
         return True
 
