@@ -9,6 +9,11 @@ $(function () {
     const MOST_ATTEMPTS = 5;
 
     const {list, isNumber} = RRFModel;
+
+    /** The name of a file that is only selected is told as that of the last one. */
+    const pathOf = (job, status) =>
+        (job.file || {}).fileName || (!WITH_JOB.includes(status) && job.lastFileName) || "";
+
     function RrfModelJobViewModel(parameters) {
         const self = this;
         const core = parameters[0];
@@ -33,7 +38,7 @@ $(function () {
         const nameOf = (path) =>
             path && path.startsWith(GCODES) ? path.slice(GCODES.length) : path || "";
 
-        self.path = ko.pureComputed(() => file().fileName || "");
+        self.path = ko.pureComputed(() => pathOf(job(), status()));
         self.name = ko.pureComputed(() => nameOf(self.path()));
 
         const size = (bytes) =>
@@ -135,7 +140,7 @@ $(function () {
             });
         };
         // the page's own view stands still while it is hidden
-        const nowPrinted = () => ((core.latest.job || {}).file || {}).fileName || "";
+        const nowPrinted = () => pathOf(core.latest.job || {}, (core.latest.state || {}).status);
 
         self.mayPause = ko.pureComputed(() => GOING_ON.includes(status()));
         self.mayResume = ko.pureComputed(() => status() === "paused");
@@ -151,18 +156,20 @@ $(function () {
             );
 
         const begin = (action, path) => core.command("job", {action: action, path: path});
-        const start = (path) =>
+        self.start = function () {
+            const path = self.path();
             asked(
                 gettext("Start the print?"),
                 gettext("The machine heats up and moves. Its bed has to be clear."),
                 gettext("Start"),
                 () => begin("start", path)
             );
-        self.start = () => start(self.path());
+        };
         self.simulate = () => begin("simulate", self.path());
         // a job may outlast the loss of the motors' supply
+        self.mayStart = ko.pureComputed(() => !self.hasJob() && status() !== "off");
         self.maySelected = ko.pureComputed(
-            () => !self.hasJob() && status() !== "off" && !!self.path()
+            () => self.mayStart() && !!self.path() && !self.last()
         );
 
         //~~ objects
@@ -205,10 +212,11 @@ $(function () {
 
         //~~ the last job
 
-        /** How it ended only a single-board computer tells. */
+        /** How it ended only a single-board computer tells. One without a time was only selected. */
         self.last = ko.pureComputed(function () {
             const told = job();
-            if (self.hasJob() || !told.lastFileName) return null;
+            const isIt = self.path() === told.lastFileName && told.lastDuration;
+            if (self.hasJob() || !isIt) return null;
             return {
                 name: nameOf(told.lastFileName),
                 duration: show.duration(told.lastDuration),
@@ -218,8 +226,6 @@ $(function () {
                 isSimulated: told.lastFileSimulated
             };
         });
-        self.startLast = () => start(job().lastFileName);
-        self.simulateLast = () => begin("simulate", job().lastFileName);
 
         //~~ layers
 
