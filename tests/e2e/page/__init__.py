@@ -54,6 +54,10 @@ def wait_text(locator, wanted, seconds=SECONDS):
 def type_number(field, number):
     """Type into a field that shows and sets a number, and confirm it."""
     field.fill(str(number))
+    # a value of the machine that comes between Playwright's selecting and its typing stays in front
+    if field.input_value() != str(number):
+        field.fill(str(number))
+    expect(field).to_have_value(str(number))
     field.press("Enter")
 
 

@@ -153,7 +153,9 @@ def test_every_part_of_the_settings_is_there(own_page, server, page_errors):
     headings = [text.strip() for text in dialog.locator("h4").all_inner_texts()]
     assert headings == [
         "Pause a print that OctoPrint streams when",
+        "Connection",
         "Terminal",
+        "When a print of OctoPrint is cancelled",
         "Rows of the sidebar",
         "What RepRapFirmware needs of OctoPrint",
         "Printer profile",
