@@ -12,9 +12,13 @@ from octoprint_rrfmodel.link.serial.serial_link import SerialLink
 from octoprint_rrfmodel.rrf.wire.request import ModelRequest
 
 try:
-    from octoprint.plugins.serial_connector.serial_comm import CommandQueue, SendQueue
+    from octoprint.plugins.serial_connector.serial_comm import (
+        CommandQueue,
+        SendQueue,
+        SendQueueMarker,
+    )
 except ImportError:
-    from octoprint.util.comm import CommandQueue, SendQueue
+    from octoprint.util.comm import CommandQueue, SendQueue, SendQueueMarker
 
 LIVE = ModelRequest("", "d99fin")
 
@@ -60,6 +64,15 @@ def test_harmless_lines_change_nothing(rig, line):
     rig.queue(line)
     rig.comm._command_queue.put((line, None, None, set()))
     assert rig.known.is_current()
+
+
+@pytest.mark.parametrize("marker", [SendQueueMarker(), (SendQueueMarker(), None, None, set())])
+def test_a_marker_is_no_command(rig, marker):
+    # alone it ends the sending when OctoPrint disconnects
+    rig.comm._send_queue.put(marker)
+    assert rig.known.is_current()
+    rig.queue("G28")
+    assert not rig.known.is_current()
 
 
 def test_what_a_print_holds_back_counts_too(rig):

@@ -17,12 +17,12 @@ def is_change_waiting(comm):
 def _waiting(comm):
     """Give the commands that are to be sent, then those that a print holds back.
 
-    An entry is what the queue was given, a command and how to send it, with its type.
+    An entry is what the queue was given, a command and how to send it, with its type. A marker is
+    no command; one alone stands at the end of a connection.
     """
     for queue in (comm._send_queue._send_queue, comm._command_queue):
         with queue.mutex:
             entries = list(queue.queue)
-        for (command, *_), *_ in entries:
-            # a marker is no command
-            if isinstance(command, str):
-                yield command
+        for given, *_ in entries:
+            if isinstance(given, tuple) and isinstance(given[0], str):
+                yield given[0]
