@@ -6,8 +6,10 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
+from ...rrf.gcode.quotes import has_odd_quote
 from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
+from ...rrf.gcode.unsendable import PAUSES
 from .fitting import begin_a_line
 from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
@@ -57,12 +59,12 @@ class QueuedCommands:
             if not gcode:
                 # means nothing to the board, and OctoPrint might wait for its ok
                 return (None,)
-            if gcode not in WATCHED:
+            if gcode not in WATCHED and not has_odd_quote(cmd):
                 return self._as_it_is(cmd, cmd_type, gcode)
         if gcode == EMERGENCY_STOP:
             self._stopping(comm)
             return None
-        if gcode in WATCHED or "*" in cmd:
+        if _is_watched(cmd, gcode, tags):
             instead = self._instead(cmd, gcode, tags or ())
             if instead is not None:
                 return self._queue(instead, cmd_type, gcode)
@@ -101,6 +103,13 @@ class QueuedCommands:
             last = translated.lines[-1]
             self._link.targets[last] = translated.heater, translated.target
         queued = [(line, cmd_type) for line in translated.lines]
-        if gcode in BLOCKING:
+        if gcode in BLOCKING and not translated.lines[0].startswith(HOSTS_OWN):
             queued.insert(0, (STATUS_REQUEST, None, {STATUS_TAG}))
         return queued
+
+
+def _is_watched(cmd, gcode, tags):
+    """Return whether a command is one that may not go out as it is."""
+    if gcode in WATCHED or "*" in cmd or has_odd_quote(cmd):
+        return True
+    return gcode in PAUSES and bool(tags) and FILE_TAG in tags

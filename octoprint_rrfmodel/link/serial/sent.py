@@ -42,7 +42,7 @@ class SentCommands:
             count_ok(comm)
         if link.awaited is not None:
             link.extra_ok.given_up()
-        link.awaits(cmd, gcode)
+        link.awaits(cmd, gcode, tags or ())
         now = link.awaited_since
         link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
         link.extra_ok.sending(cmd, gcode)

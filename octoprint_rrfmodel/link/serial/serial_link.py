@@ -6,7 +6,7 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 import threading
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import may_change
+from ...rrf.gcode.blocking import MOVES, may_change
 from ...rrf.gcode.doing import HEATING, what_of
 from ...rrf.gcode.duration import takes_long
 from ...rrf.wire.gcode_words import words
@@ -30,6 +30,9 @@ CARD_JOB = {
 }
 """What is done to a job, to the method of OctoPrint's printer that does it to a print from the
 card, and whether it does anything in the connection's state."""
+
+RUNS_MACROS = frozenset(("T", "M98"))
+"""Commands whose macros may extrude."""
 
 SLOTS = (
     ("M140 ", "heatedBed", "bedHeaters"),
@@ -67,6 +70,9 @@ class SerialLink(Link):
         self.awaited = None
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
+        self.awaited_tags = ()
+        self.extruded = "", ()
+        """The last command that extruded, and its tags: what is refused of it comes later."""
         self.awaited_since = 0.0
         self.awaits_long = False
         """Whether the awaited command may take long without a word."""
@@ -84,10 +90,13 @@ class SerialLink(Link):
         fit(comm)
         self.connection = comm
 
-    def awaits(self, cmd, gcode):
+    def awaits(self, cmd, gcode, tags=()):
         """Note the command that is about to go out."""
         self.awaited = gcode
         self.awaited_command = cmd
+        self.awaited_tags = tags
+        if gcode in RUNS_MACROS or ("E" in cmd and (gcode in MOVES or " E" in cmd)):
+            self.extruded = cmd, tags
         self.awaited_since = self.heard_at = self._clock()
         self.awaits_long = gcode is not None and takes_long(cmd, gcode)
         if self.awaits_long:
