@@ -10,7 +10,9 @@ from ...rrf.gcode.quotes import has_odd_quote
 from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
 from ...rrf.gcode.unsendable import PAUSES
+from ...rrf.wire.gcode_words import apart
 from .fitting import begin_a_line
+from .own_commands import from_queue
 from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
 
@@ -42,6 +44,9 @@ class QueuedCommands:
     ):
         """Put an M105 behind each poll and in front of each command that blocks.
 
+        A poll is an M105 itself until it leaves (``sent``): other plugins take any other command
+        for somebody at work, and never switch off what is idle.
+
         The firmware's report during a blocking command goes where the last status request came
         from, and after M409 that is not this line (3.5 GCodes.cpp:4865). OctoPrint holds a lock
         while it queues the list, so that no other command gets in between.
@@ -69,11 +74,14 @@ class QueuedCommands:
             if instead is not None:
                 return self._queue(instead, cmd_type, gcode)
         elif tags and FILE_TAG not in tags:
-            if POLL_TAG in tags and gcode != STATUS_REQUEST:
+            if POLL_TAG in tags:
                 return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
             translated = self._translate(cmd, gcode, tags)
             if translated is not None:
                 return self._queue(translated, cmd_type, gcode)
+            lines = from_queue(cmd, gcode, tags)
+            if lines is not None:
+                return [(line, cmd_type) for line in lines]
         return self._as_it_is(cmd, cmd_type, gcode)
 
     def _as_it_is(self, cmd, cmd_type, gcode):
@@ -102,7 +110,7 @@ class QueuedCommands:
         if translated.heater:
             last = translated.lines[-1]
             self._link.targets[last] = translated.heater, translated.target
-        queued = [(line, cmd_type) for line in translated.lines]
+        queued = [(part, cmd_type) for line in translated.lines for part in apart(line)]
         if gcode in BLOCKING and not translated.lines[0].startswith(HOSTS_OWN):
             queued.insert(0, (STATUS_REQUEST, None, {STATUS_TAG}))
         return queued

@@ -4,6 +4,7 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 """
 
 import threading
+from collections import deque
 
 from ...host.tags import POLL_TAG
 from ...rrf.gcode.blocking import MOVES, may_change
@@ -16,6 +17,7 @@ from ..terminal import RecentPolls
 from .extra_ok import ExtraOk
 from .fitting import fit
 from .lost_ok import LostOk
+from .own_commands import to_queue
 from .pending import is_change_waiting
 from .restart import Connection, restart
 
@@ -56,6 +58,7 @@ class SerialLink(Link):
         self._card = None
         self._last = None
         self._lost_ok = LostOk(self, clock)
+        self._asked = deque(maxlen=1)
         self.polled = RecentPolls()
         self.was_identified = threading.Event()
         """Set when a board tells what it is; a restart waits for that."""
@@ -67,6 +70,7 @@ class SerialLink(Link):
 
     def forget(self):
         self.connection = None
+        self._asked.clear()
         self.awaited = None
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
@@ -135,10 +139,18 @@ class SerialLink(Link):
         return self._printer().is_operational()
 
     def ask(self, request):
-        self._printer().commands(request.line, tags={POLL_TAG})
+        self._asked.append(request.line)
+        self._printer().commands(STATUS_REQUEST, tags={POLL_TAG})
+
+    def take_asked(self):
+        """Return the line of the question that is to go out now, ``None`` where none is to."""
+        try:
+            return self._asked.pop()
+        except IndexError:
+            return None
 
     def send(self, lines, tags, force=False):
-        self._printer().commands(lines, tags=tags, force=force)
+        self._printer().commands(to_queue(lines), tags=tags, force=force)
 
     def stop_now(self, tags):
         # past all queues, as what OctoPrint streams is one
