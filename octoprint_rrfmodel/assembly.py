@@ -18,6 +18,7 @@ from .guard.notifications import Notifications
 from .host.notes import NOTES
 from .host.request_checks import RequestChecks
 from .host.setup import Setup
+from .host.warnings import worst_first
 from .integrations.helpers import Helpers
 from .integrations.octoprint_events import MachineEvents
 from .integrations.other_plugins import OtherPlugins
@@ -30,6 +31,7 @@ from .link.reports import TemperatureReports
 from .link.serial.display import Display
 from .link.serial.patience import Patience
 from .link.serial.received import ReceivedLines
+from .link.serial.refused_lines import RefusedLines
 from .link.serial.sdcard import SdCard
 from .link.serial.sdjob import SdJob
 from .link.serial.sdupload import UploadRefusal
@@ -81,7 +83,7 @@ class Assembly:
         """What the settings page and the first-run wizard show."""
 
     def _make_guard(self):
-        self._boxes, self._guard, self._recovery, self._warnings = make_guards(
+        guards = make_guards(
             self._host,
             self.link,
             self._known,
@@ -89,6 +91,7 @@ class Assembly:
             problems=self.setup.problems,
             clock=self._clock,
         )
+        self._boxes, self._guard, self._recovery, self._warnings, self._file_check = guards
 
     def _make_card_and_poller(self):
         known = self._known
@@ -175,6 +178,7 @@ class Assembly:
             notify,
             guards=self._guard.handles,
             patience=Patience(self.link, host.silence_minutes, self._boxes.holds_the_line),
+            refusals=RefusedLines(self.link, notify, stops=self._guard.stops, clock=self._clock),
         )
         self.queued = queued_commands(
             self.link,
@@ -213,6 +217,7 @@ class Assembly:
             self._recovery,
             self._boxes,
             self._guard,
+            self._file_check,
             self.link,
             self._poller,
             self._push,
@@ -248,18 +253,22 @@ class Assembly:
             "print_paused": guard.paused,
             "print_resumed": guard.resumed,
             "print_waits": guard.waits_for,
+            "print_stops": guard.stopped,
+            "print_started": guard.started,
             "print_bound": guard.forgotten,
             "settings_updated": self.setup.settings.look,
         }
 
     def _all_warnings(self):
-        return [*self._warnings(), *self.other_plugins.warnings()]
+        found = self._warnings(), self._file_check.warnings(), self.other_plugins.warnings()
+        return worst_first(warning for each in found for warning in each)
 
     ##~~ OctoPrint's life
 
     def start(self):
         """Begin to work: OctoPrint is up."""
         self.worker.start()
+        self._file_check.start()
         self.other_plugins.start()
         self.moonraker.start()
         self._plugin_subscribers.start()
@@ -268,6 +277,7 @@ class Assembly:
         """End all threads."""
         self._plugin_subscribers.stop()
         self.other_plugins.stop()
+        self._file_check.stop()
         self.worker.stop()
 
     def on_event(self, event, payload):
@@ -277,6 +287,7 @@ class Assembly:
             self.link.forget()
             self.worker.notify("disconnected")
         self.moonraker.job.on_event(event, payload)
+        self._file_check.on_event(event, payload)
         note = NOTES.get(event)
         if note and self.link.is_rrf:
             self.worker.notify(note)

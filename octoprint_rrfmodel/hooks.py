@@ -3,13 +3,17 @@
 from .host.permissions import permissions
 from .integrations.octoprint_events import custom_events
 
+BEFORE_ALL = -1000
+"""Order of the hook about what comes in: others, of whatever order (Octolapse's is -1), are to read
+clean lines, and in words that they know. All others have none: OctoPrint takes them by name."""
+
 
 def hooks_of(plugin):
-    """Return OctoPrint's hooks and who handles them; early, so that others see clean lines."""
+    """Return OctoPrint's hooks and who handles them."""
     parts = plugin.parts
     port, received = parts.simulated_port, parts.received
     return {
-        "octoprint.comm.protocol.gcode.received": (received.on_received, 1),
+        "octoprint.comm.protocol.gcode.received": (received.on_received, BEFORE_ALL),
         "octoprint.comm.protocol.gcode.queuing": parts.queued.on_queuing,
         "octoprint.comm.protocol.gcode.sending": parts.sent.on_sending,
         "octoprint.comm.protocol.gcode.error": received.on_error,

@@ -40,6 +40,7 @@ class RrfModelPlugin(
                 version=lambda: self._plugin_version,
                 fire=eventManager().fire,
                 tell_pages=self._tell_pages,
+                path_on_disk=lambda path: self._file_manager.path_on_disk("local", path),
             )
         )
         self._api = self.parts.api

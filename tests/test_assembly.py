@@ -39,6 +39,7 @@ def parts(tmp_path):
             version=lambda: "0",
             fire=lambda event, payload: None,
             tell_pages=lambda message: None,
+            path_on_disk=lambda path: str(tmp_path / path),
         )
     )
 

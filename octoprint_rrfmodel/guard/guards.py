@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from .file_check import FileCheck
 from .message_boxes import MessageBoxes
 from .print_guard import PrintGuard
 from .recovery import Recovery
@@ -15,6 +16,7 @@ class Guards(NamedTuple):
     guard: PrintGuard
     recovery: Recovery
     warnings: WarningList
+    file_check: FileCheck
 
 
 def make_guards(host, link, known, *, notifications, problems, clock):
@@ -36,4 +38,5 @@ def make_guards(host, link, known, *, notifications, problems, clock):
         is_held=boxes.holds_the_line,
     )
     warnings = WarningList(model, link, guard, recovery=recovery, boxes=boxes, problems=problems)
-    return Guards(boxes, guard, recovery, warnings)
+    file_check = FileCheck(host, link, notifications.tell)
+    return Guards(boxes, guard, recovery, warnings, file_check)

@@ -1,5 +1,7 @@
 """A print that OctoPrint streams, paused when the machine can't print: RRF leaves that to hosts."""
 
+import re
+import time
 from functools import partial
 from typing import NamedTuple
 
@@ -9,16 +11,29 @@ from octoprint.access.permissions import Permissions
 
 from ..host.answers import refusal
 from ..host.warning_texts import waiting_text, warning_text
+from ..host.warnings import FILE_PAUSES
+from ..rrf.gcode.file_place import named
 from ..rrf.views.warnings import (
     OFF,
     POSITION_LOST,
     RESET,
+    MachineWarning,
     faults,
     is_resumable,
     is_unhomed,
     said,
 )
 from ..rrf.wire.errors import guarded_warning
+from ..rrf.wire.masking import masked
+from ..rrf.wire.refusals import CODES as REFUSALS
+
+OF_A_LINE = frozenset((*REFUSALS, *FILE_PAUSES))
+"""Codes of what a print meets at one of its lines; when that is mended only a person knows."""
+
+FOR_EVER = float("inf")
+
+LET_GO_SECONDS = 60.0
+"""Time without a refusal behind which one of the same kind is news again."""
 
 JOB_ENDPOINT = "api.controlJob"
 """OctoPrint's view of ``POST /api/job``."""
@@ -32,7 +47,8 @@ class Pause(NamedTuple):
     message: str
     """The text of a message box that the print came to, empty where it was none."""
     what_next: str
-    """``wait`` until the causes are over, ``resume``, ``cancel``, ``answer`` the message."""
+    """``wait`` until the causes are over, ``resume``, ``cancel``, ``answer`` the message, ``mend``
+    what a line of the file has met, then resume."""
 
 
 class PrintGuard:
@@ -41,15 +57,18 @@ class PrintGuard:
     ``printer()`` is OctoPrint's printer. ``has_print()`` says whether it prints, or has paused,
     one of its own files on RepRapFirmware. ``model()`` is the snapshot. ``is_on("guard", code)``
     says whether a cause is watched. ``tell(code, detail)`` reaches the pages. ``causes``,
-    ``pause``, ``refusal`` and ``handles`` may be called by any thread, all else by the worker.
+    ``pause``, ``refusal``, ``stops`` and ``handles`` may be called by any thread, all else by the
+    worker.
     """
 
-    def __init__(self, printer, has_print, model, *, is_on, tell):
+    def __init__(self, printer, has_print, model, *, is_on, tell, clock=time.monotonic):
         self._printer = printer
         self.has_print = has_print
         self._model = model
         self._is_on = partial(is_on, "guard")
         self._tell = tell
+        self._clock = clock
+        self._refused = {}
         self._was_reset = False
         self._was_off = False
         self._told = frozenset()
@@ -76,7 +95,8 @@ class PrintGuard:
             return Pause((), message, "answer")
         now = self.causes()
         if not now:
-            return Pause(causes, "", "resume")
+            is_of_a_line = any(cause.code in OF_A_LINE for cause in causes)
+            return Pause(causes, "", "mend" if is_of_a_line else "resume")
         may_go_on = all(is_resumable(cause) for cause in now)
         return Pause(tuple(now), "", "wait" if may_go_on else "cancel")
 
@@ -88,6 +108,8 @@ class PrintGuard:
         self._pause_for(causes)
 
     def _pause_for(self, causes):
+        if causes and self._takes_over(causes):
+            return
         printer = self._printer()
         # what has begun to end or to pause needs nothing; cancelling is what a person wants
         if not causes or printer.is_pausing() or printer.is_cancelling() or printer.is_finishing():
@@ -98,6 +120,20 @@ class PrintGuard:
             return
         self._pausing_for = (tuple(causes), "")
         printer.pause_print()
+        self._tell_new(causes)
+
+    def _takes_over(self, causes):
+        """Return whether the print is paused for a refused line, which has come of these causes."""
+        if _is_refused(self._pausing_for):
+            self._pausing_for = tuple(causes), ""
+        elif self._pausing_for is None and _is_refused(self._paused_for):
+            self._paused_for = tuple(causes), ""
+        else:
+            return False
+        self._tell_new(causes)
+        return True
+
+    def _tell_new(self, causes):
         new = [cause for cause in causes if cause not in self._told]
         self._told = frozenset(causes)
         if new:
@@ -107,6 +143,29 @@ class PrintGuard:
         """Note that the print pauses at a message box that nobody could answer."""
         self._pausing_for = ((), message)
         self._tell("print_paused", waiting_text(message))
+
+    def stops(self, code, text, print_started):
+        """Return whether a refused line pauses that print; OctoPrint's receiving thread asks.
+
+        Once: who resumes it lets those that follow go, until there is none for a while.
+        """
+        if not self._is_on(code):
+            return False
+        kind = print_started, code, re.sub(r"\d+", "", text)
+        now = self._clock()
+        is_new = now - self._refused.get(kind, -LET_GO_SECONDS) >= LET_GO_SECONDS
+        # of another print nothing is of use any more; while it is paused no time counts
+        known = {known: at for known, at in self._refused.items() if known[0] == print_started}
+        self._refused = {**known, kind: FOR_EVER if is_new else now}
+        return is_new
+
+    def stopped(self, code, place, text=""):
+        """Note that the print pauses at a line of its file (``rrf.gcode.file_place.Place``)."""
+        cause = MachineWarning(
+            code, texts=(("place", masked(named(place))), ("text", masked(text)))
+        )
+        self._pausing_for = ((cause,), "")
+        self._tell("print_paused", _sentences([cause]))
 
     ##~~ a listener
 
@@ -146,10 +205,19 @@ class PrintGuard:
         self._paused_for = None
         # what a file does to its axes at its end is nobody's concern
         self._was_off &= is_unhomed(self._model())
-        if self._pausing_for is not None and not self._pausing_for[1]:
-            # a box may be what stops the print next, a cause would be found again
+        if self._pausing_for is not None and not _is_of_a_line(self._pausing_for):
+            # a line may be what stops the print next, a cause would be found again
             self._pausing_for = None
+        now = self._clock()
+        self._refused = {kind: min(at, now) for kind, at in self._refused.items()}
         self.look()
+
+    def started(self):
+        """Note that a print has begun, which may have come to a line already that pauses it."""
+        pausing_for = self._pausing_for
+        self.forgotten()
+        if pausing_for is not None and _is_of_a_line(pausing_for):
+            self._pausing_for = pausing_for
 
     def forgotten(self):
         """Note that there is no print any more, or another one."""
@@ -193,6 +261,17 @@ class PrintGuard:
             return False
         action = data.get("action", "toggle")
         return action == "resume" or (action == "toggle" and self._printer().is_paused())
+
+
+def _is_refused(paused_for):
+    """Return whether it is a refused line that a print is paused for."""
+    return paused_for is not None and any(cause.code in REFUSALS for cause in paused_for[0])
+
+
+def _is_of_a_line(paused_for):
+    """Return whether it is a line of the file that a print is paused for."""
+    causes, message = paused_for
+    return bool(message) or any(cause.code in OF_A_LINE for cause in causes)
 
 
 def _sentences(warnings):

@@ -1,7 +1,7 @@
 """The warnings that hold now, of the machine, the print and OctoPrint, put together."""
 
 from ..host.warning_texts import paused_text, waiting_text
-from ..host.warnings import ALL_LEVELS, ORDER, PRINT_PAUSED, warning
+from ..host.warnings import ALL_LEVELS, PRINT_PAUSED, warning, worst_first
 from ..rrf.views.warnings import UNANSWERABLE, warnings_of
 from ..rrf.wire.masking import masked
 
@@ -42,7 +42,7 @@ class WarningList:
             *self._silence(),
             *map(warning, self._problems()),
         ]
-        return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
+        return worst_first(warnings)
 
     def _silence(self):
         doing = self._link.doing()

@@ -23,6 +23,8 @@ class Host(NamedTuple):
     """Fires an event."""
     tell_pages: Callable[[dict], Any]
     """Sends a message to the pages of those who may read the model."""
+    path_on_disk: Callable[[str], str]
+    """Where a file of OctoPrint's own is kept."""
 
     def is_set(self, *path):
         """Return whether a switch of the plugin's settings is on."""

@@ -28,6 +28,12 @@ def notification_text(code, detail):
             "The print was cancelled. These heaters, which OctoPrint's script does not know, were"
             " switched off too: %(detail)s."
         ),
+        "quotes": gettext(
+            "Not sent, a quote in it is not closed: %(detail)s. Close it; OctoPrint takes a"
+            " semicolon for the end of the line, also in quotes."
+        ),
+        "refused": gettext("The machine has refused %(detail)s."),
+        "file_checked": gettext("Before you print: %(detail)s"),
         "box_waits": gettext(
             "A message of the machine waits for an answer that this firmware does not take over"
             " USB. Answer on the machine's own page or panel, and everything goes on by itself; or"

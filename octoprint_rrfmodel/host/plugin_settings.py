@@ -1,11 +1,14 @@
 """The plugin's settings and what they are when nobody has changed them."""
 
 from ..rrf.card.wording import ROWS as WORDING
+from ..rrf.gcode.quotes import ROW as QUOTES
 from ..rrf.gcode.recognition import ROWS
 from ..rrf.gcode.stops import ROW as STOP
 from ..rrf.gcode.switch_off import ROW as HEATERS_OFF
+from ..rrf.gcode.unsendable import PAUSE_ROW
 from ..rrf.gcode.unsendable import ROWS as UNSENDABLE
 from ..rrf.views.warnings import GUARDS
+from ..rrf.wire.refusals import CODES as REFUSALS
 
 VERSION = 1
 
@@ -25,12 +28,12 @@ SIDEBAR = (
 DEFAULTS = {
     # rows of the table of operations that are switched off go out as OctoPrint has them
     "operations": dict.fromkeys(
-        [*(row.name for row in (*ROWS, *UNSENDABLE)), STOP, HEATERS_OFF], True
+        [*(row.name for row in (*ROWS, *UNSENDABLE)), STOP, PAUSE_ROW, QUOTES, HEATERS_OFF], True
     ),
     # rows of the table of replies that are switched off reach OctoPrint as the firmware has them
     "replies": {row.name: True for row in WORDING},
     # what pauses a print that OctoPrint streams
-    "guard": {code: True for code in GUARDS},
+    "guard": {code: True for code in (*GUARDS, *REFUSALS)},
     # minutes that a board may say nothing during a command that takes long; 0: any time
     "silence_minutes": 60.0,
     # keep the plugin's polls out of the terminal tab

@@ -21,13 +21,14 @@ def paused_text(why, what_next):
         ),
         "cancel": gettext("The print was paused and can only be cancelled. %(why)s"),
         "answer": gettext("The print was paused. %(why)s"),
+        "mend": gettext("The print was paused. %(why)s Then resume the print, or cancel it."),
     }
     return texts[what_next] % {"why": why}
 
 
 def warning_text(code, values=None):
     """Return the sentence for a warning's code, with its values in it."""
-    texts = {**_of_the_machine(), **_of_boards(), **_of_octoprint()}
+    texts = {**_of_the_machine(), **_of_boards(), **_of_a_file(), **_of_octoprint()}
     return texts[code] % (values or {})
 
 
@@ -90,6 +91,47 @@ def _of_boards():
         "versions_differ": gettext(
             "Board %(number)s runs firmware %(version)s and the main board %(main)s. Update them"
             " to the same version."
+        ),
+    }
+
+
+def _of_a_file():
+    return {
+        "refused_move": gettext(
+            "The machine refused a move of the file, %(place)s: %(text)s. Find the cause, home what"
+            " is not homed."
+        ),
+        "refused_extrusion": gettext(
+            "The machine moves without extruding, %(place)s: %(text)s. Select the tool and heat it."
+        ),
+        "refused_selection": gettext(
+            "The machine has not selected the tool that the file wants, %(place)s: %(text)s. Select"
+            " it."
+        ),
+        "refused_heating": gettext(
+            "The machine does not heat as the file wants, %(place)s: %(text)s. Find the cause, set"
+            " the temperature."
+        ),
+        "refused_pause": gettext(
+            "The file has come to a pause that the machine takes only from its own card,"
+            " %(place)s: %(text)s. Do what is to be done there."
+        ),
+        "file_pause": gettext("The file wants a pause, %(place)s. Do what is to be done there."),
+        "file_filament": gettext("The file wants another filament, %(place)s. Change it."),
+        "file_blocks": gettext(
+            "The selected file has if, elif, else or while in lines %(lines)s. OctoPrint takes away"
+            " the indentation that tells what belongs to them, so that all of it would be run. Put"
+            " such parts into a macro on the machine and call it by M98, or print the file from the"
+            " machine's card."
+        ),
+        "file_semicolons": gettext(
+            "The selected file has semicolons in quoted texts in lines %(lines)s, where OctoPrint"
+            " cuts a line off. The plugin sends these lines whole; to be independent of it, take"
+            " the semicolons out."
+        ),
+        "file_quotes": gettext(
+            "The selected file has quotes that are not closed in lines %(lines)s. What can be"
+            " closed is, the rest is not sent. Close them."
         ),
     }
 

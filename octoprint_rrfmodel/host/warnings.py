@@ -1,16 +1,22 @@
 """A warning in the form of the public contract, section 2: code, sentence, level, what mends it."""
 
 from ..rrf.views.warnings import ADVICE, FAULT, LEVELS, POSITION_LOST, RESET, WARNING
+from ..rrf.wire.refusals import CODES as REFUSALS
 from .warning_texts import warning_text
 
 PRINT_PAUSED = "print_paused"
 """The code of the warning that the plugin has paused the print."""
+
+FILE_PAUSES = ("file_pause", "file_filament")
+"""Codes of a file's own pauses."""
 
 ALL_LEVELS = {
     **LEVELS,
     RESET.code: FAULT,
     POSITION_LOST.code: FAULT,
     PRINT_PAUSED: FAULT,
+    **dict.fromkeys((*REFUSALS, *FILE_PAUSES, "file_blocks"), FAULT),
+    "file_quotes": WARNING,
     "mqtt_topic": WARNING,
 }
 """How much each warning matters; those that aren't here are advice."""
@@ -27,6 +33,11 @@ FIXES = {
     "profile_tools": "fix_profile",
 }
 """The command of ``POST /api/plugin/rrfmodel`` that mends what a warning is about."""
+
+
+def worst_first(warnings):
+    """Return warnings in the order of their levels."""
+    return sorted(warnings, key=lambda told: ORDER.index(told["level"]))
 
 
 def warning(code, values=None, name=None):

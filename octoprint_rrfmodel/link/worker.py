@@ -13,6 +13,7 @@ Which thread runs what:
   clients' G-code goes back to this worker to be sent.
 * ``rrfmodel.plugin_subscribers``, another ``Worker``: callbacks and hook handlers of plugins.
 * ``rrfmodel.other_plugins``, another: MQTT, PSUControl and the like.
+* ``rrfmodel.file_check``, another: files that are selected, looked through.
 * ``rrfmodel.recovery``: one restart of the board, waiting for it to come back.
 """
 

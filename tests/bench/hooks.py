@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import statistics
+from types import SimpleNamespace
 from typing import Any
 
 from octoprint_rrfmodel.link.serial.queued import QueuedCommands
@@ -44,7 +45,14 @@ def measure() -> None:
         model=dict,
         is_reworded=lambda row: True,
     )
-    hooks = ReceivedLines(link, card, lambda *note: None, guards=lambda error: False)
+    hooks = ReceivedLines(
+        link,
+        card,
+        lambda *note: None,
+        guards=lambda error: False,
+        patience=SimpleNamespace(feed=lambda comm: ""),
+        refusals=SimpleNamespace(look=lambda comm, line: None),
+    )
     queue = QueuedCommands(
         link, lambda *note: None, lambda *command: None, translators=(card.translate,)
     )

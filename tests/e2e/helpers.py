@@ -44,6 +44,16 @@ WRONG = ("malformed", "out_of_buffers", "timeouts")
 NUMBERED = re.compile(r"(?:N\d+ ?)?(?P<command>.*?)(?:\*\d+)?$")
 """A line as it came in on the wire; group ``command`` is the G-code."""
 
+MOVES_APART = tuple(
+    (re.compile(parts, re.MULTILINE), whole)
+    for parts, whole in (
+        (r"^M120 M83\nG91\n(G1 .*)\nG90\nM121$", r"M120 M83 \1 M121"),
+        (r"^M120 G21\nG91\n(G1 .*)\nG90\nM121$", r"M120 G21 G91 \1 M121"),
+        (r"^M120 G21\nG90\n(G1 .*)\nM121$", r"M120 G21 G90 \1 M121"),
+    )
+)
+"""What goes out for an extrusion and for jogs, with the line that it was."""
+
 
 # the plugin over HTTP
 
@@ -210,6 +220,22 @@ def commands(board):
 def commands_of(board):
     """As ``commands``, for the board without its port."""
     return [NUMBERED.match(text)["command"].strip() for text in board.received()]
+
+
+def whole_moves(lines):
+    """Return lines with each move that leaves modes as they were as the one line that was queued.
+
+    Its parts come one right behind the other; where the last is still to come they stay apart.
+    """
+    text = "\n".join(lines)
+    for parts, whole in MOVES_APART:
+        text = parts.sub(whole, text)
+    return text.splitlines()
+
+
+def is_in_parts(lines):
+    """Return whether a move of ``whole_moves`` is still on its way."""
+    return "M120 G21" in lines or "M120 M83" in lines
 
 
 def is_poll(command):

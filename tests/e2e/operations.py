@@ -102,9 +102,9 @@ class Machine:
         return wire
 
     def sent_since(self, since):
-        """Return the G-code that has come in since there were so many lines."""
+        """Return the G-code that has come in since there were so many lines, moves as one line."""
         lines = helpers.commands(self.pty)[since:]
-        return [line for line in lines if line and not BESIDE.match(line)]
+        return helpers.whole_moves([line for line in lines if line and not BESIDE.match(line)])
 
     def execute(self, gcode):
         """Run G-code at the machine, as its own panel does, and let the model know."""
@@ -117,10 +117,14 @@ class Machine:
         before = len(self.board.received())
         self.post(name, **parameters)
         try:
-            self.server.wait_for(lambda: len(self.sent_since(before)) >= len(lines), 20)
+            self.server.wait_for(lambda: self._have_come(before, len(lines)), 20)
         finally:
             assert self.sent_since(before) == lines
         self.wait_idle()
+
+    def _have_come(self, since, count):
+        lines = self.sent_since(since)
+        return len(lines) >= count and not helpers.is_in_parts(lines)
 
     def post(self, name, wanted=204, /, **parameters):
         """Send a command to the plugin; return the response."""

@@ -144,7 +144,9 @@ class Bench:
 
     def _sent_since(self, before):
         lines = helpers.commands(self.pty)[before:]
-        return [line for line in lines if line and not line.startswith(NOT_OF_THE_REQUEST)]
+        return helpers.whole_moves(
+            [line for line in lines if line and not line.startswith(NOT_OF_THE_REQUEST)]
+        )
 
     def get(self, path="", **query):
         return self.server.get(f"/api/printer{path}", params=query)

@@ -14,7 +14,9 @@ from tests.support.places import ROOT
 
 WORDS = ROOT / "octoprint_rrfmodel" / "static" / "js" / "words.js"
 
-VALUES = dict.fromkeys(("number", "line", "file", "message", "version", "main"), "7")
+NAMES = ("number", "line", "file", "message", "version", "main", "place", "text", "lines")
+
+VALUES = dict.fromkeys(NAMES, "7")
 
 OF_THE_PROFILE = ("profile_tools", "profile_reconnect")
 

@@ -14,12 +14,18 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.host.tags import POLL_TAG
 from octoprint_rrfmodel.link.serial.display import Display
-from octoprint_rrfmodel.link.serial.operation_translator import OPERATION_OF_TAG
+from octoprint_rrfmodel.link.serial.file_lines import FileLines
+from octoprint_rrfmodel.link.serial.operation_translator import (
+    OPERATION_OF_TAG,
+    OperationTranslator,
+)
+from octoprint_rrfmodel.link.serial.queued import QueuedCommands
 from octoprint_rrfmodel.link.serial.received import ReceivedLines
+from octoprint_rrfmodel.link.serial.refused_lines import RefusedLines
 from octoprint_rrfmodel.link.serial.sdcard import SdCard
 from octoprint_rrfmodel.link.serial.sent import SentCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
-from octoprint_rrfmodel.link.serial.way_out import queued_commands
+from octoprint_rrfmodel.link.serial.unsendable_commands import UnsendableCommands
 from octoprint_rrfmodel.link.terminal import PollTrace
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from octoprint_rrfmodel.rrf.card.wording import Situation, reword
@@ -32,6 +38,7 @@ from octoprint_rrfmodel.rrf.wire.errors import guarded_warning, is_halted, is_se
 from octoprint_rrfmodel.rrf.wire.heard import heard
 from octoprint_rrfmodel.rrf.wire.line import find_reply, without_warning
 from octoprint_rrfmodel.rrf.wire.masking import masked
+from octoprint_rrfmodel.rrf.wire.refusals import is_plain_refusal, refusal
 from octoprint_rrfmodel.rrf.wire.reply import MalformedReply, decode, decode_page, foreign_strings
 from octoprint_rrfmodel.web.moonraker.gcode_store import GcodeStore
 from tests.rrf.klipper import model_of
@@ -49,10 +56,15 @@ class Rig:
         self.comm = SimpleNamespace(
             _clear_to_send=threading.Event(),
             _serial_encoding="utf-8",
-            _printer_profile={"extruder": {"count": 2, "sharedNozzle": False}},
             last_temperature=SimpleNamespace(set_tool=lambda *args, **more: None),
             getCurrentTool=lambda: 0,
             isPrinting=lambda: True,
+            isPausing=lambda: False,
+            isPaused=lambda: False,
+            isCancelling=lambda: False,
+            isFinishing=lambda: False,
+            isSdFileSelected=lambda: False,
+            setPause=self.note,
         )
         self.link = SerialLink(dict, dict, float)
         job = SimpleNamespace(
@@ -60,24 +72,38 @@ class Rig:
             cancel=lambda gcode: None,
             allow_opening=lambda comm: None,
             situation=lambda *known: Situation(),
-            reworded=lambda comm, worded: [],
+            reworded=lambda comm, line: (),
         )
         card = SdCard(
             CardPlan(), job, self.link, model=lambda: self.model, is_reworded=lambda row: True
         )
         self.link.attach(card)
-        patience = SimpleNamespace(feed=lambda comm: "")
         self.received = ReceivedLines(
-            self.link, card, self.note, guards=lambda error: False, patience=patience
-        )
-        self.received.on_firmware_info(self.comm, "RepRapFirmware for Duet 2 WiFi", {})
-        self.queued = queued_commands(
             self.link,
             card,
+            self.note,
+            guards=lambda error: False,
+            patience=SimpleNamespace(feed=lambda comm: ""),
+            refusals=RefusedLines(
+                self.link, self.note, stops=lambda *refused: True, clock=lambda: 0.0
+            ),
+        )
+        self.received.on_firmware_info(self.comm, "RepRapFirmware for Duet 2 WiFi", {})
+        operations = OperationTranslator(
+            self.machine, lambda row: True, self.note, profile=lambda: {"extruder": {"count": 1}}
+        )
+        unsendable = UnsendableCommands(
             self.machine,
-            notify=self.note,
-            is_on=lambda row: True,
-            prompts=lambda cmd, gcode, tags: None,
+            lambda row: True,
+            self.note,
+            stop=lambda *command: None,
+            files=FileLines(self.link),
+        )
+        self.queued = QueuedCommands(
+            self.link,
+            self.note,
+            unsendable.instead,
+            translators=(card.translate, operations.translate),
         )
         self.sent = SentCommands(self.link, self.note, float, show_target=self.note, sent=self.note)
         known = SimpleNamespace(heat=lambda: (temperatures(self.model), True))
@@ -185,6 +211,8 @@ LOOKS = {
     "is_serious": lambda: is_serious,
     "guarded_warning": lambda: guarded_warning,
     "is_halted": lambda: is_halted,
+    "refusal": lambda: refusal,
+    "is_plain_refusal": lambda: is_plain_refusal,
     "heard": lambda: heard,
     "without_warning": lambda: without_warning,
     "reword": lambda: lambda line: reword(line, Situation),

@@ -50,6 +50,7 @@ class Rig:
             lambda *note: None,
             guards=lambda error: False,
             patience=SimpleNamespace(feed=lambda comm: ""),
+            refusals=SimpleNamespace(look=lambda comm, line: None),
         )
         self._sent = SentCommands(
             self.link,

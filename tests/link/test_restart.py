@@ -80,8 +80,9 @@ class World:
 def run(monkeypatch):
     """Function that restarts in a world in which something happens; returns what was done."""
 
-    def begin(*events, connected=True):
+    def begin(*events, connected=True, prints=False):
         world = World(monkeypatch, events)
+        world.prints = prints
         if connected:
             world.hold("first")
         last = Connection("/dev/ttyACM0", 115200, "_default")
@@ -118,6 +119,10 @@ def test_somebody_connects_to_another_printer(run, is_rrf, when, done):
 
 def test_somebody_prints(run):
     assert run((0.2, lambda world: setattr(world, "prints", True))) == ["M999"]
+
+
+def test_print_that_stands_is_what_the_restart_ends(run):
+    assert run((0.2, lambda world: None), prints=True)[0] == "M999"
 
 
 def test_board_that_prints_by_itself_when_it_is_connected_again(run):

@@ -42,6 +42,7 @@ class Rig:
             self.note,
             guards=lambda error: False,
             patience=Patience(self.link, lambda: self.minutes, lambda: self.is_held),
+            refusals=SimpleNamespace(look=lambda comm, line: None),
         )
         self.sent = SentCommands(
             self.link,

@@ -7,6 +7,7 @@ import pytest
 pytest.importorskip("octoprint")
 
 from octoprint_rrfmodel.host.tags import FILE_TAG
+from octoprint_rrfmodel.link.serial.file_lines import FileLines
 from octoprint_rrfmodel.link.serial.stop_commands import MOST_BEHIND, StopCommands
 from octoprint_rrfmodel.rrf.views.machine import Machine
 
@@ -24,7 +25,11 @@ def instead(tmp_path):
         comm = SimpleNamespace(_currentFile=SimpleNamespace(getFilename=lambda: str(path)))
         link = SimpleNamespace(connection=comm, carried=lambda lines, machine: lines)
         commands = StopCommands(
-            link, lambda: Machine(MODEL), lambda comm: is_others, is_on=lambda row: is_on
+            link,
+            FileLines(link),
+            lambda: Machine(MODEL),
+            is_others=lambda comm: is_others,
+            is_on=lambda row: is_on,
         )
         outcome = commands.instead(cmd, cmd.split()[0], {FILE_TAG, f"filepos:{place + shift}"})
         return None if outcome is None else list(outcome.lines)
@@ -58,8 +63,9 @@ def test_job_of_the_machine_is_not_ended(instead):
 
 def test_file_that_is_gone_is_no_end():
     comm = SimpleNamespace(_currentFile=SimpleNamespace(getFilename=lambda: "/nowhere/a.gcode"))
+    link = SimpleNamespace(connection=comm)
     commands = StopCommands(
-        SimpleNamespace(connection=comm), dict, lambda comm: False, is_on=lambda row: True
+        link, FileLines(link), dict, is_others=lambda comm: False, is_on=lambda row: True
     )
     assert commands.instead("M0", "M0", {FILE_TAG, "filepos:5"}) is None
     assert commands.instead("M0", "M0", {FILE_TAG}) is None

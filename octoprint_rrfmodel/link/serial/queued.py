@@ -6,9 +6,13 @@ Looks at tags and a G-code, hands over, returns; none of it waits.
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE, STATUS_TAG
 from ...rrf.gcode.blocking import BLOCKING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
+from ...rrf.gcode.quotes import has_odd_quote
 from ...rrf.gcode.stops import STOPS
 from ...rrf.gcode.unsendable import GCODES as UNSENDABLE
+from ...rrf.gcode.unsendable import PAUSES
+from ...rrf.wire.gcode_words import apart
 from .fitting import begin_a_line
+from .own_commands import from_queue
 from .script_filter import OF_PRINTS
 from .serial_link import EMERGENCY_STOP, STATUS_REQUEST
 
@@ -40,6 +44,9 @@ class QueuedCommands:
     ):
         """Put an M105 behind each poll and in front of each command that blocks.
 
+        A poll is an M105 itself until it leaves (``sent``): other plugins take any other command
+        for somebody at work, and never switch off what is idle.
+
         The firmware's report during a blocking command goes where the last status request came
         from, and after M409 that is not this line (3.5 GCodes.cpp:4865). OctoPrint holds a lock
         while it queues the list, so that no other command gets in between.
@@ -57,21 +64,24 @@ class QueuedCommands:
             if not gcode:
                 # means nothing to the board, and OctoPrint might wait for its ok
                 return (None,)
-            if gcode not in WATCHED:
+            if gcode not in WATCHED and not has_odd_quote(cmd):
                 return self._as_it_is(cmd, cmd_type, gcode)
         if gcode == EMERGENCY_STOP:
             self._stopping(comm)
             return None
-        if gcode in WATCHED or "*" in cmd:
+        if _is_watched(cmd, gcode, tags):
             instead = self._instead(cmd, gcode, tags or ())
             if instead is not None:
                 return self._queue(instead, cmd_type, gcode)
         elif tags and FILE_TAG not in tags:
-            if POLL_TAG in tags and gcode != STATUS_REQUEST:
+            if POLL_TAG in tags:
                 return [(cmd, POLL_TYPE), (STATUS_REQUEST,)]
             translated = self._translate(cmd, gcode, tags)
             if translated is not None:
                 return self._queue(translated, cmd_type, gcode)
+            lines = from_queue(cmd, gcode, tags)
+            if lines is not None:
+                return [(line, cmd_type) for line in lines]
         return self._as_it_is(cmd, cmd_type, gcode)
 
     def _as_it_is(self, cmd, cmd_type, gcode):
@@ -100,7 +110,14 @@ class QueuedCommands:
         if translated.heater:
             last = translated.lines[-1]
             self._link.targets[last] = translated.heater, translated.target
-        queued = [(line, cmd_type) for line in translated.lines]
-        if gcode in BLOCKING:
+        queued = [(part, cmd_type) for line in translated.lines for part in apart(line)]
+        if gcode in BLOCKING and not translated.lines[0].startswith(HOSTS_OWN):
             queued.insert(0, (STATUS_REQUEST, None, {STATUS_TAG}))
         return queued
+
+
+def _is_watched(cmd, gcode, tags):
+    """Return whether a command is one that may not go out as it is."""
+    if gcode in WATCHED or "*" in cmd or has_odd_quote(cmd):
+        return True
+    return gcode in PAUSES and bool(tags) and FILE_TAG in tags

@@ -28,14 +28,16 @@ class ReceivedLines:
     ``card.reword(line)`` gives a line in words that OctoPrint knows, ``card.fill()`` one in the
     place of a line that was the plugin's alone. ``guards(error)`` says whether a serious error
     only pauses the print. ``patience.feed(comm)`` gives what OctoPrint is to hear of silence.
+    ``refusals.look(comm, line)`` sees what the firmware says of commands.
     """
 
-    def __init__(self, link, card, notify, *, guards, patience):
+    def __init__(self, link, card, notify, *, guards, patience, refusals):
         self._link = link
         self._card = card
         self._notify = notify
         self._guards = guards
         self._patience = patience
+        self._refusals = refusals
 
     ##~~ octoprint.comm.protocol.firmware.info
 
@@ -110,7 +112,10 @@ class ReceivedLines:
         if link.expects_refusal and ("M409" in line or "M408" in line):
             self._notify("refused", line)
             return line
-        return self._card.reword(line)
+        reworded = self._card.reword(line)
+        if reworded == line:
+            self._refusals.look(comm, line)
+        return reworded
 
     ##~~ octoprint.comm.protocol.gcode.error
 

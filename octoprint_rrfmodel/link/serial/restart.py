@@ -55,11 +55,13 @@ class World:
         self._printer = printer
         self._is_running = is_running
         self._held = _held_by(printer())
-        self._was_paused = printer().is_paused()
+        # the print that the restart ends: a paused one, or one that a box at the board holds up
+        self._ends_a_print = printer().is_paused() or printer().is_printing()
 
     def take(self):
         """Take what OctoPrint has now for the restart's own: it has just made it."""
         self._held = _held_by(self._printer())
+        self._ends_a_print = False
 
     def is_told(self):
         """Return whether the board has said what it is doing."""
@@ -72,7 +74,7 @@ class World:
         # one that has failed is still the same; 2.0 begins with one that says that it is closed
         if held is not None and held is not self._held:
             raise WorldChangedError("Somebody has connected to another printer meanwhile")
-        if printer.is_printing() or (printer.is_paused() and not self._was_paused):
+        if (printer.is_printing() or printer.is_paused()) and not self._ends_a_print:
             raise WorldChangedError("OctoPrint prints meanwhile")
         if self._is_running():
             raise WorldChangedError("The board prints meanwhile")

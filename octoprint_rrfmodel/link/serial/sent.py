@@ -1,10 +1,9 @@
 """OctoPrint's hook about what is about to leave, on the thread that sends a print's lines."""
 
-from ...host.tags import FILE_TAG, POLL_TAG
+from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE
 from ...rrf.gcode.blocking import TARGETING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
 from .extra_ok import count_ok
-from .serial_link import STATUS_REQUEST
 
 
 class SentCommands:
@@ -28,10 +27,16 @@ class SentCommands:
     def on_sending(
         self, comm, phase, cmd, cmd_type, gcode, subcode=None, tags=None, *args, **kwargs
     ):
-        """Note what the printer is about to be busy with."""
+        """Note what the printer is about to be busy with; a poll takes its own form here.
+
+        Until now it was an M105, as other plugins are to take it (``queued``).
+        """
         link = self._link
         if comm is not link.connection:
             return None
+        poll = link.take_asked() if cmd_type == POLL_TYPE else None
+        if poll is not None:
+            cmd, gcode = poll, name_of(poll).partition(".")[0]
         if gcode is None:
             gcode = "" if cmd.startswith(HOSTS_OWN) else name_of(cmd)
             if not gcode:
@@ -42,9 +47,9 @@ class SentCommands:
             count_ok(comm)
         if link.awaited is not None:
             link.extra_ok.given_up()
-        link.awaits(cmd, gcode)
+        link.awaits(cmd, gcode, tags or ())
         now = link.awaited_since
-        link.asks_of_a_file = gcode == "M36" and POLL_TAG in (tags or ())
+        link.asks_of_a_file = gcode == "M36" and poll is not None
         link.extra_ok.sending(cmd, gcode)
         if gcode in TARGETING or cmd in link.targets:
             link.target_command_at = now
@@ -52,14 +57,15 @@ class SentCommands:
             self._show_target(*link.targets.pop(cmd))
         if gcode in ("T", "M109"):
             link.tool_command_at = now
+        if poll is not None:
+            link.polled.add(cmd)
+            # the number that it gets if it gets one, in both versions of OctoPrint
+            self._notify("poll_sent", now, getattr(comm, "_current_line", None))
+            return cmd
         if tags and FILE_TAG not in tags:
             if POLL_TAG not in tags:
                 self._sent(cmd, tags)
-            elif gcode == STATUS_REQUEST:
+            elif cmd_type != POLL_TYPE:
                 # it leaves when OctoPrint has the ok of the poll in front of it
                 self._notify("poll_acknowledged")
-            else:
-                link.polled.add(cmd)
-                # the number that it gets if it gets one, in both versions of OctoPrint
-                self._notify("poll_sent", now, getattr(comm, "_current_line", None))
         return None

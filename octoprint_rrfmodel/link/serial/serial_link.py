@@ -4,9 +4,10 @@ The hooks of this folder keep its state: ``received``, ``queued`` and ``sent``.
 """
 
 import threading
+from collections import deque
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import may_change
+from ...rrf.gcode.blocking import MOVES, may_change
 from ...rrf.gcode.doing import HEATING, what_of
 from ...rrf.gcode.duration import takes_long
 from ...rrf.wire.gcode_words import words
@@ -16,6 +17,7 @@ from ..terminal import RecentPolls
 from .extra_ok import ExtraOk
 from .fitting import fit
 from .lost_ok import LostOk
+from .own_commands import to_queue
 from .pending import is_change_waiting
 from .restart import Connection, restart
 
@@ -30,6 +32,9 @@ CARD_JOB = {
 }
 """What is done to a job, to the method of OctoPrint's printer that does it to a print from the
 card, and whether it does anything in the connection's state."""
+
+RUNS_MACROS = frozenset(("T", "M98"))
+"""Commands whose macros may extrude."""
 
 SLOTS = (
     ("M140 ", "heatedBed", "bedHeaters"),
@@ -53,6 +58,7 @@ class SerialLink(Link):
         self._card = None
         self._last = None
         self._lost_ok = LostOk(self, clock)
+        self._asked = deque(maxlen=1)
         self.polled = RecentPolls()
         self.was_identified = threading.Event()
         """Set when a board tells what it is; a restart waits for that."""
@@ -64,9 +70,13 @@ class SerialLink(Link):
 
     def forget(self):
         self.connection = None
+        self._asked.clear()
         self.awaited = None
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
+        self.awaited_tags = ()
+        self.extruded = "", ()
+        """The last command that extruded, and its tags: what is refused of it comes later."""
         self.awaited_since = 0.0
         self.awaits_long = False
         """Whether the awaited command may take long without a word."""
@@ -84,10 +94,13 @@ class SerialLink(Link):
         fit(comm)
         self.connection = comm
 
-    def awaits(self, cmd, gcode):
+    def awaits(self, cmd, gcode, tags=()):
         """Note the command that is about to go out."""
         self.awaited = gcode
         self.awaited_command = cmd
+        self.awaited_tags = tags
+        if gcode in RUNS_MACROS or ("E" in cmd and (gcode in MOVES or " E" in cmd)):
+            self.extruded = cmd, tags
         self.awaited_since = self.heard_at = self._clock()
         self.awaits_long = gcode is not None and takes_long(cmd, gcode)
         if self.awaits_long:
@@ -126,10 +139,18 @@ class SerialLink(Link):
         return self._printer().is_operational()
 
     def ask(self, request):
-        self._printer().commands(request.line, tags={POLL_TAG})
+        self._asked.append(request.line)
+        self._printer().commands(STATUS_REQUEST, tags={POLL_TAG})
+
+    def take_asked(self):
+        """Return the line of the question that is to go out now, ``None`` where none is to."""
+        try:
+            return self._asked.pop()
+        except IndexError:
+            return None
 
     def send(self, lines, tags, force=False):
-        self._printer().commands(lines, tags=tags, force=force)
+        self._printer().commands(to_queue(lines), tags=tags, force=force)
 
     def stop_now(self, tags):
         # past all queues, as what OctoPrint streams is one

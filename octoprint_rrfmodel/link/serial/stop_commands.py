@@ -6,9 +6,6 @@ import os
 from ...rrf.gcode.operations import NOTHING, Lines
 from ...rrf.gcode.stops import ROW, is_at_end, stop_lines
 
-POSITION = "filepos:"
-"""OctoPrint's tag of a line of a file: where the next one begins."""
-
 MOST_BEHIND = 512 * 1024
 """Bytes behind a command that may be comments alone: slicers keep their settings there."""
 
@@ -19,13 +16,14 @@ BEFORE = 1024
 class StopCommands:
     """Ends a print on the board where its file does; elsewhere OctoPrint pauses, as ever.
 
-    ``link`` is the ``SerialLink``, ``machine()`` the view of the model. ``is_others(comm)`` says
-    whether the board has a job that isn't OctoPrint's, ``is_on(row)`` whether a row of the
-    operations is switched on.
+    ``link`` is the ``SerialLink``, ``files`` knows its file (``FileLines``), ``machine()`` the view
+    of the model. ``is_others(comm)`` says whether the board has a job that isn't OctoPrint's,
+    ``is_on(row)`` whether a row of the operations is switched on.
     """
 
-    def __init__(self, link, machine, is_others, *, is_on):
+    def __init__(self, link, files, machine, *, is_others, is_on):
         self._link = link
+        self._files = files
         self._machine = machine
         self._is_others = is_others
         self._is_on = is_on
@@ -34,7 +32,7 @@ class StopCommands:
     def instead(self, cmd, gcode, tags):
         """Return what to queue in place of a stop of a file, ``None`` to leave it to OctoPrint."""
         comm = self._link.connection
-        if not self._is_on(ROW) or not self._is_last(comm, tags):
+        if not self._is_on(ROW) or not self._is_last(cmd, tags):
             return None
         if self._is_others(comm):
             # M0 would end that one, if it is paused
@@ -43,13 +41,12 @@ class StopCommands:
         machine = self._machine()
         return Lines(tuple(self._link.carried(stop_lines(cmd, gcode, machine), machine)))
 
-    def _is_last(self, comm, tags):
-        place = next((tag[len(POSITION) :] for tag in tags if tag.startswith(POSITION)), "")
-        file = comm._currentFile
-        if not place.isdigit() or file is None:
+    def _is_last(self, cmd, tags):
+        place = self._files.place(cmd, tags)
+        if not place.path:
             return False
         try:
-            return _is_last_of(file.getFilename(), int(place))
+            return _is_last_of(place.path, place.position)
         except OSError as error:
             self._logger.warning("Could not look for the end of the file: %s", error)
             return False

@@ -2,6 +2,7 @@
 
 from functools import partial
 
+from .file_lines import FileLines
 from .operation_translator import OperationTranslator
 from .queued import QueuedCommands
 from .script_filter import ScriptFilter
@@ -18,13 +19,9 @@ def queued_commands(link, card, machine, *, notify, is_on, prompts):
     OctoPrint's own prompts.
     """
     refused = partial(notify, "refused_operation")
-    unsendable = UnsendableCommands(
-        machine,
-        is_on,
-        refused,
-        paused=partial(notify, "print_waits"),
-        stop=StopCommands(link, machine, card.is_others, is_on=is_on).instead,
-    )
+    files = FileLines(link)
+    stops = StopCommands(link, files, machine, is_others=card.is_others, is_on=is_on)
+    unsendable = UnsendableCommands(machine, is_on, notify, stop=stops.instead, files=files)
     return QueuedCommands(
         link,
         notify,

@@ -101,8 +101,8 @@ ROWS = (
         "jog",
         ("G0", "G1"),
         _jog,
-        "One line, so that no other client's command gets in between; M120 and M121 keep and"
-        " restore modes and feed rate (3.5 GCodeMachineState.cpp:41-60).",
+        "One line in the queue, so that no other client's command gets in between; M120 and M121"
+        " keep and restore modes and feed rate (3.5 GCodeMachineState.cpp:41-60).",
     ),
     Row(
         "home_mode",

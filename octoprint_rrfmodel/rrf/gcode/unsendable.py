@@ -90,6 +90,16 @@ ROWS = (
     ),
 )
 
+PAUSES = frozenset(("M25", "M226", "M600", "M601"))
+"""Places at which a file on the card pauses its job. Of a channel that prints no file the firmware
+takes none of them (seen in 3.5.3), so that a file that a host streams would go on, in the old
+colour for example; there they pause the host's print."""
+
+PAUSE_ROW = "file_pause"
+"""As the setting that switches that off is called."""
+
+CHANGES_FILAMENT = "M600"
+
 GCODES = frozenset(gcode for row in ROWS for gcode in row.gcodes)
 
 _BY_GCODE = {gcode: row for row in ROWS for gcode in row.gcodes}

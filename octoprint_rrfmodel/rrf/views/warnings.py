@@ -256,8 +256,25 @@ def said(text: str, model: Model) -> list[MachineWarning]:
 
 
 def _told_in_a_box(model: Model) -> list[MachineWarning]:
+    """Return the faults that only a box tells of.
+
+    It stays open until somebody answers it; of a heater the model says whether that is over.
+    """
     message = mapping(mapping(model.get("state")).get("messageBox")).get("message")
-    return said(message, model) if isinstance(message, str) else []
+    if not isinstance(message, str):
+        return []
+    told = set(_heaters_told(model))
+    return [
+        each
+        for each in said(message, model)
+        if each.code != "heater_fault" or each.numbers[0] not in told
+    ]
+
+
+def _heaters_told(model: Model) -> Iterator[int]:
+    for number, heater in enumerate(array(mapping(model.get("heat")).get("heaters"))):
+        if isinstance(mapping(heater).get("state"), str):
+            yield number
 
 
 def is_unhomed(model: Model) -> bool:

@@ -13,6 +13,14 @@ Python writes very small numbers with ``e-``."""
 _TEXT = re.compile(r'(?:(?P<letter>[A-Za-z])\s*)?"(?P<text>(?:[^"]|"")*)"')
 """A text in quotes, with the letter in front of it if there is one."""
 
+KEEPS_MODES = "M120"
+"""Keeps modes and feed rate until M121 (3.5 GCodeMachineState.cpp:41-60)."""
+
+_KEPT = re.compile(
+    r"(?P<begin>M120 (?:G21|M83)) (?:(?P<mode>G9[01]) )?(?P<move>G1 .*) (?P<end>M121)"
+)
+"""A line of a move that leaves all as it was, by the parts in which it goes out."""
+
 
 def words(line: str) -> dict[str, float | None]:
     """Return the words of a line without quotes, by upper-case letter.
@@ -68,6 +76,24 @@ def extrude_line(amounts: Sequence[float], speed: float | None) -> str:
     """Return one line that extrudes, as ``jog_line``; several amounts are one per extruder."""
     feed = f" F{number(speed)}" if speed else ""
     return f"M120 M83 G1 E{numbers(amounts)}{feed} M121"
+
+
+def apart(line: str) -> tuple[str, ...]:
+    """Return a line of ``jog_line`` or ``extrude_line`` as the lines that go out, another alone.
+
+    Who counts filament or follows positions finds among them those that a host of the Marlin kind
+    sends, in order, and knows neither M120 nor M121. They take G91 for the extruder's mode too; by
+    an M83 of its own line they would go on counting after the board has its old mode again.
+
+    >>> apart("M120 M83 G1 E5 F300 M121"), apart("M106 S1")
+    (('M120 M83', 'G91', 'G1 E5 F300', 'G90', 'M121'), ('M106 S1',))
+    """
+    parts = _KEPT.fullmatch(line)
+    if parts is None:
+        return (line,)
+    mode = parts["mode"] or "G91"
+    back = ("G90",) if mode == "G91" else ()
+    return parts["begin"], mode, parts["move"], *back, parts["end"]
 
 
 def texts(line: str) -> dict[str, str]:

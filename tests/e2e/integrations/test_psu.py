@@ -1,5 +1,7 @@
 """PSUControl switches the machine's supply through the plugin and is told its state."""
 
+import re
+import time
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,9 @@ from .. import helpers
 
 PSUCONTROL = Path(plugins.__file__).with_name("psucontrol.py")
 ENDPOINT = "/api/plugin/psucontrol"
+
+IDLE_SECONDS = 4
+"""Longer than two polls are apart."""
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +69,76 @@ def test_refusal_is_logged_and_nothing_is_sent(server, board):
     finally:
         server.post("/api/job", json={"command": "cancel"})
         server.wait_state("Operational", 40)
+
+
+@pytest.fixture
+def psucontrol(server):
+    """Function that gives PSUControl's settings other values; in the end they are as before."""
+
+    def change(**values):
+        for name, value in values.items():
+            server.set_setting(f"plugins.psucontrol.{name}", value)
+
+    yield change
+    change(pseudo=False, idle=0.0)
+
+
+def switched(server):
+    """Return how often PSUControl has switched until now, and to what."""
+    return server.get(ENDPOINT).json()["calls"]
+
+
+def of_power(board, since):
+    return [line for line in helpers.commands(board)[since:] if re.match(r"M0?8[01]\b", line)]
+
+
+@pytest.mark.both_hosts("each queues with its own code")
+def test_off_when_idle(server, board, psucontrol):
+    """Polls are nobody at work, and what somebody does is."""
+    psucontrol(idle=IDLE_SECONDS)
+    polls = helpers.status(server)["counters"]["replies"]
+    calls = len(switched(server))
+    server.commands("M115")
+    began = time.monotonic()
+    server.wait_for(lambda: switched(server)[calls:], IDLE_SECONDS + 10, "the supply to be off")
+    assert time.monotonic() - began > IDLE_SECONDS - 1
+    # it was polled as ever
+    assert helpers.status(server)["counters"]["replies"] > polls + 2
+    server.wait_for(lambda: not is_on(server), 10, "the plugin to see it")
+    assert switched(server)[calls:] == [False]
+    assert board.board.model["state"]["atxPower"] is False
+    psucontrol(idle=0.0)
+    switch(server, "On")
+    server.wait_for(lambda: is_on(server), 10, "the supply to be on")
+
+
+@pytest.mark.both_hosts("each queues with its own code")
+@pytest.mark.parametrize("who", ["typed", "the plugin's command", "PSUControl"])
+def test_pseudo_commands_switch_once(server, board, psucontrol, who):
+    """PSUControl takes M80 and M81 for its own, asks the plugin, and lets that one's through."""
+    psucontrol(pseudo=True)
+    ask = {
+        "typed": lambda on: server.commands("M80" if on else "M81"),
+        "the plugin's command": lambda on: power(server, on),
+        "PSUControl": lambda on: switch(server, "On" if on else "Off"),
+    }[who]
+    calls = len(switched(server))
+    for on in (False, True):
+        before = len(board.board.received())
+        ask(on)
+        server.wait_for(lambda on=on: is_on(server) is on, 10, f"the supply to be {on}")
+        helpers.wait_polls(server, 2)
+        assert of_power(board, before) == ["M80" if on else "M81"]
+    # the plugin's own is no wish to PSUControl
+    asked = [] if who == "the plugin's command" else [False, True]
+    assert switched(server)[calls:] == asked
+    assert "RecursionError" not in server.log()
+    assert server.state() == "Operational"
+
+
+def power(server, on):
+    response = server.post("/api/plugin/rrfmodel", json={"command": "power", "on": on})
+    assert response.status_code == 204, response.text
 
 
 def test_without_a_machine_it_is_off(server, board):

@@ -74,5 +74,5 @@ def test_long_command(server, board, start, command):
     helpers.assert_status_request_in_front(sent, command)
     helpers.wait_polls(server, 2)
     assert helpers.status(server)["counters"]["replies"] > before
-    assert helpers.status(server)["blocked"] is None
+    server.wait_for(lambda: helpers.status(server)["blocked"] is None, 10, "the line to be free")
     assert server.state().startswith("Operational")

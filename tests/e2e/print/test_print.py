@@ -152,7 +152,7 @@ BETWEEN = {
     500: "G28",
     700: "M117 *** not a checksum ***",
     900: "T0",
-    1100: "M98 P\"0:/macros/Say hello\"",
+    1100: 'M98 P"0:/macros/Say hello"',
     1300: "M109 S45",
     1500: "X21.5 Y21.5",
     1700: "G32",

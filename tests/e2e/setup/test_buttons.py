@@ -4,6 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from octoprint_rrfmodel.rrf.card.wording import ROWS as WORDING
+from octoprint_rrfmodel.rrf.gcode import stops, switch_off
 from octoprint_rrfmodel.rrf.gcode.recognition import ROWS as OPERATIONS
 from octoprint_rrfmodel.rrf.gcode.unsendable import ROWS as UNSENDABLE
 from octoprint_rrfmodel.rrf.views.warnings import GUARDS
@@ -36,7 +37,11 @@ def warnings(server):
 
 
 SWITCHES = {
-    "operations": [row.name for row in (*OPERATIONS, *UNSENDABLE)],
+    "operations": [
+        *(row.name for row in (*OPERATIONS, *UNSENDABLE)),
+        stops.ROW,
+        switch_off.ROW,
+    ],
     "replies": [row.name for row in WORDING],
     "guard": list(GUARDS),
 }

@@ -23,6 +23,8 @@ STATUS_TYPES = {
     "firmware": (dict, type(None)),
     "ready": bool,
     "stale": bool,
+    "link": str,
+    "doing": (dict, type(None)),
     "blocked": (str, type(None)),
     "age": (int, float, type(None)),
     "at": (int, float),

@@ -213,3 +213,19 @@ def test_table():
 @pytest.mark.parametrize("version, loses", [((3, 4, 6), False), ((3, 5, 0), True)])
 def test_loses_boxes(version, loses):
     assert loses_boxes(version) is loses
+
+
+@pytest.mark.parametrize(
+    "heaters, found",
+    [
+        ([{"state": "off"}, {"state": "off"}], []),
+        ([{"state": "off"}, {"state": "fault"}], ["heater_fault_1"]),
+        # where the model says nothing of it, the box does
+        ([{"state": "off"}], ["heater_fault_1"]),
+        ([{"state": "off"}, {}], ["heater_fault_1"]),
+    ],
+)
+def test_box_that_outlasts_a_heaters_fault_is_none(heaters, found):
+    box = {"mode": 1, "seq": 1, "message": "Heater 1 fault: temperature rising too slowly"}
+    model = {"heat": {"heaters": heaters}, "state": {"messageBox": box}}
+    assert [fault.name for fault in faults(model)] == found
