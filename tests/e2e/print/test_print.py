@@ -141,7 +141,6 @@ SURVIVED = (
     "huge_line:2",
     "debug_text:2",
     "err_no_buffers:2",
-    "unsolicited:3",
     "error_reply:50",
     "unread:2",
 )

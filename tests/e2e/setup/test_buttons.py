@@ -3,11 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 
-from octoprint_rrfmodel.rrf.card.wording import ROWS as WORDING
-from octoprint_rrfmodel.rrf.gcode import stops, switch_off
-from octoprint_rrfmodel.rrf.gcode.recognition import ROWS as OPERATIONS
-from octoprint_rrfmodel.rrf.gcode.unsendable import ROWS as UNSENDABLE
-from octoprint_rrfmodel.rrf.views.warnings import GUARDS
+from octoprint_rrfmodel.host.plugin_settings import DEFAULTS
 from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
 from tests.support.waiting import within
@@ -36,20 +32,13 @@ def warnings(server):
     return [found["code"] for found in helpers.status(server)["warnings"]]
 
 
-SWITCHES = {
-    "operations": [
-        *(row.name for row in (*OPERATIONS, *UNSENDABLE)),
-        stops.ROW,
-        switch_off.ROW,
-    ],
-    "replies": [row.name for row in WORDING],
-    "guard": list(GUARDS),
-}
+SWITCHES = ("operations", "replies", "guard")
+"""Groups of settings of which each row of a table has one."""
 
 
 @pytest.mark.parametrize("group", SWITCHES)
 def test_each_row_has_a_switch_that_is_on(server, group):
-    rows = SWITCHES[group]
+    rows = DEFAULTS[group]
     settings = server.get("/api/settings").json()["plugins"]["rrfmodel"]
     assert settings[group] == dict.fromkeys(rows, True)
     with server.session(ADMIN) as session:
