@@ -46,7 +46,8 @@ def assert_sane(state, protocol):
     counters = state["counters"]
     assert counters["polls"] >= counters["replies"] > 10 or protocol == "M408"
     assert counters["bytes"] > 3000
-    wrong = ("malformed", "out_of_buffers", "timeouts", "rewritten")
+    # not those that timed out: the end of the connection before may have cut off a poll
+    wrong = ("malformed", "out_of_buffers", "rewritten")
     assert {name: counters[name] for name in wrong} == dict.fromkeys(wrong, 0)
 
 

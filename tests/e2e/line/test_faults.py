@@ -182,7 +182,11 @@ def test_fault(server, board_factory, name):
         server.wait_for(lambda: not seen.codes(), 10, "the end of all warnings")
         server.wait_for(lambda: seen.status["blocked"] is None, 10, "an unblocked line")
         grown = seen.grown
-        assert {count for count in helpers.WRONG if grown[count]} == set(expected.counts)
+        wrong = {count for count in helpers.WRONG if grown[count]}
+        if name == "disconnect":
+            # the end of a connection may cut off a poll
+            wrong.discard("timeouts")
+        assert wrong == set(expected.counts)
         if name != "disconnect":
             assert server.state().startswith("Operational")
             assert push.events("Disconnected") == push.events("Error") == []

@@ -127,6 +127,8 @@ def _reset_by_button(board):
 def test_reset(server, board_factory, reset):
     board = board_factory(machine="cartesian", speed=5)
     helpers.connect(server, board)
+    # a board that has only just begun can't be seen to begin again
+    helpers.wait_value(server, "state.upTime", lambda seconds: seconds > 30, 30)
     before = helpers.status(server)
     board.board.execute('M563 P0 S"Before"\nM140 S80\nG28')
     helpers.wait_value(server, "move.axes[].homed", [True] * 3, 10)

@@ -89,17 +89,22 @@ def test_what_is_refused_is_told(machine, refusals):
 
 @on("one tool 3.3", "one tool 3.5.3")
 def test_jog_that_the_board_refuses_shifts_no_ok(machine):
-    # the board loses its position behind the plugin's back, so that the jog does go out
-    machine.home()
-    machine.board.execute("M84")
     before = len(machine.server.received())
     # the server has had other tests
     timeouts = helpers.status(machine.server)["counters"]["timeouts"]
-    machine.server.post("/api/printer/printhead", json={"command": "jog", "x": 10})
-    machine.server.commands("M115", "M114", "M119")
-    machine.settle()
-    received = machine.server.received()[before:]
-    assert any("insufficient axes homed" in line for line in received)
+
+    def is_refused():
+        # the board loses its position behind the plugin's back, so that the jog does go out; once
+        # more where the plugin was told before
+        machine.home()
+        machine.board.execute("M84")
+        machine.server.post("/api/printer/printhead", json={"command": "jog", "x": 10})
+        machine.server.commands("M115", "M114", "M119")
+        machine.settle()
+        received = machine.server.received()[before:]
+        return any("insufficient axes homed" in line for line in received)
+
+    machine.server.wait_for(is_refused, 60, "the jog to be refused by the board")
     assert machine.server.state() == "Operational"
     # what is sent from here on is still answered before the next line leaves
     helpers.wait_polls(machine.server, 3)
