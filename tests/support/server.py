@@ -24,6 +24,9 @@ START_SECONDS = 120
 LOG = "logs/octoprint.log"
 SERIAL_LOG = "logs/serial.log"
 
+BEGINNING = 200
+"""Bytes by which a log is known: the first of them tell when it was begun."""
+
 
 class ServerDied(AssertionError):
     """The process ended before it answered; the message carries the end of its log."""
@@ -64,8 +67,8 @@ class OctoPrintServer:
         self._python = python
         self._environment = environment or {}
         self._process: subprocess.Popen[bytes] | None = None
-        # file below the base folder -> its inode and length when what it had was forgotten
-        self._forgotten: dict[str, tuple[int, int]] = {}
+        # file below the base folder -> how it began and its length when what it had was forgotten
+        self._forgotten: dict[str, tuple[bytes, int]] = {}
         self._admin = self.client(users[0])
         if ports_glob is not None:
             serial = {"additionalPorts": [ports_glob], **(serial or {})}
@@ -147,8 +150,8 @@ class OctoPrintServer:
         for name in (LOG, SERIAL_LOG):
             path = self.basedir / name
             if path.exists():
-                found = path.stat()
-                self._forgotten[name] = found.st_ino, found.st_size
+                had = path.read_bytes()
+                self._forgotten[name] = had[:BEGINNING], len(had)
 
     def log(self) -> str:
         """Return octoprint.log as it is now."""
@@ -188,12 +191,12 @@ class OctoPrintServer:
         path = self.basedir / name
         if not path.exists():
             return ""
-        with path.open("rb") as file:
-            inode, length = self._forgotten.get(name, (0, 0))
-            # OctoPrint begins another file from time to time
-            if os.fstat(file.fileno()).st_ino == inode:
-                file.seek(length)
-            return file.read().decode("utf-8", "replace")
+        has = path.read_bytes()
+        begins, length = self._forgotten.get(name, (b"", 0))
+        # OctoPrint begins another file with every connection; its inode may be that of an old one
+        if len(has) >= length and has.startswith(begins):
+            has = has[length:]
+        return has.decode("utf-8", "replace")
 
     # HTTP
 
