@@ -41,6 +41,8 @@ class PtyBoard:
         self._thread: threading.Thread | None = None
         self.error: BaseException | None = None
         """What ended the thread, if not :meth:`stop`."""
+        self.turns_alone = 0
+        """How often in a row there was nobody at the other end."""
 
     def start(self) -> PtyBoard:
         """Open the terminal, link it, and let the board run."""
@@ -113,8 +115,10 @@ class PtyBoard:
         if events & select.POLLHUP:
             self.board.transmit()
             self._unsent = b""
+            self.turns_alone += 1
             self._stop.wait(TICK_SECONDS)
             return
+        self.turns_alone = 0
         self._send()
 
     def _events(self, master: int) -> int:

