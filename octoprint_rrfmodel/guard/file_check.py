@@ -63,14 +63,16 @@ class FileCheck:
         self._selected = path
         if path is None:
             self._findings, self._told = {}, None
-        else:
+        elif self._link.is_rrf:
             self._worker.notify("check", path)
 
     ##~~ a listener
 
     def identified(self):
-        """Tell of the file that was selected before there was a machine."""
-        self._say()
+        """Look at the file that was selected before there was a machine that it concerns."""
+        path = self._selected
+        if path is not None:
+            self._worker.notify("check", path)
 
     ##~~ any thread
 

@@ -101,13 +101,16 @@ def test_told_once_for_each_selection(rig):
 def test_nothing_of_it_without_a_machine_that_it_concerns(rig):
     rig.link.is_rrf = False
     rig.write("a.gcode", "if true\n")
+    rig.write("before.gcode", "if true\n")
+    rig.select("before.gcode")
     rig.select("a.gcode")
-    wait_for(lambda: (rig.folder / KEPT).exists(), 5, "the check")
     assert (rig.check.warnings(), rig.told) == ([], [])
     rig.link.is_rrf = True
-    rig.wait("file_blocks")
     rig.check.identified()
-    assert rig.told == ["file_checked"]
+    wait_for(lambda: rig.told == ["file_checked"], 5, "the notice")
+    rig.wait("file_blocks")
+    # the other one was never looked through
+    assert list(json.loads((rig.folder / KEPT).read_text(encoding="utf-8"))) == ["a.gcode"]
 
 
 def test_files_of_the_card_and_lost_ones(rig):
@@ -120,6 +123,8 @@ def test_files_of_the_card_and_lost_ones(rig):
     rig.wait("file_blocks")
     rig.select("nowhere.gcode")
     rig.wait()
+    wait_for(lambda: rig.told == ["file_checked"] * 2, 5, "the notice of each")
+    assert rig.check.warnings() == []
 
 
 def test_what_is_kept_is_broken(rig):

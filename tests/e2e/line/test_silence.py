@@ -85,3 +85,4 @@ def test_a_port_that_is_gone_is_noticed_at_once(server, board):
     silence(server, board, "G4 S200")
     board.board.inject("disconnect")
     server.wait_disconnected(5)
+    assert not helpers.status(server)["connected"]
