@@ -3,6 +3,7 @@
 Standard library and :mod:`octoprint_rrfmodel.rrf` only; nothing here imports OctoPrint.
 :class:`~.board.Board` is the device, :class:`~.port.SimulatedSerial` a serial object for
 OctoPrint's transport, :class:`~.pty.PtyBoard` a pseudo-terminal,
+:class:`~.network.http_board.HttpBoard` its web server,
 ``python -m octoprint_rrfmodel.simulator`` the command.
 
 The floors, from the bottom to the top; a module imports from its own floor and those below:
@@ -21,6 +22,7 @@ The floors, from the bottom to the top; a module imports from its own floor and 
 * ``gcodes``: the G-codes, a class for each group; a new one is a row of its group.
 * ``assembly``: each part made once with what it uses; groups register here.
 * ``board``: bytes in, bytes out, and time in between.
-* ``port``, ``pty``: faces of a board; a new one is a module that is given a ``Board``.
+* ``port``, ``pty``, ``network``: faces of a board; a new one is given a ``Board``. On the network a
+  request is a row of its group, and groups register in ``network.http_board``.
 * ``__main__``: the command line.
 """

@@ -1,4 +1,4 @@
-"""``python -m octoprint_rrfmodel.simulator``: a simulated board on a pseudo-terminal."""
+"""``python -m octoprint_rrfmodel.simulator``: a board on a terminal, on the network or on both."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 import signal
 import sys
 import threading
+from typing import Callable, NamedTuple
 
 from . import captured
 from .board import Board
@@ -15,6 +16,8 @@ from .machines import MACHINES, UnknownMachine, machine_called
 
 DEFAULT_FIRMWARE = "3.5.3"
 BAD_USAGE = 2
+LOCAL = "127.0.0.1"
+MOST_PORT = 65535
 
 
 def listing() -> str:
@@ -31,10 +34,17 @@ def listing() -> str:
 def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(
         prog="python -m octoprint_rrfmodel.simulator",
-        description="A simulated RepRapFirmware board on a pseudo-terminal.",
+        description="A simulated RepRapFirmware board on a pseudo-terminal, the network or both.",
     )
     what = result.add_mutually_exclusive_group()
     result.add_argument("--link", metavar="PATH", help="where to link the pseudo-terminal")
+    result.add_argument(
+        "--http", metavar="[HOST:]PORT", help="where to serve its web interface (0: any port)"
+    )
+    result.add_argument(
+        "--sbc", action="store_true", help="with --http: behind a single-board computer"
+    )
+    result.add_argument("--password", metavar="P", help="with --http: the board's password")
     what.add_argument("--machine", metavar="NAME", help="which machine to be (cartesian)")
     what.add_argument("--model", metavar="FILE", help="serve the object model in this file")
     result.add_argument("--firmware", metavar="VERSION", help=f"({DEFAULT_FIRMWARE})")
@@ -71,8 +81,11 @@ def main(arguments: list[str] | None = None) -> int:
         print(listing())
         return 0
     try:
-        if options.link is None:
-            raise ValueError("--link PATH is needed, or --list")
+        if options.link is None and options.http is None:
+            raise ValueError("--link PATH or --http PORT is needed, or --list")
+        if options.http is None and (options.sbc or options.password is not None):
+            raise ValueError("--sbc and --password are for --http")
+        address = None if options.http is None else address_of(options.http)
         if not options.speed > 0:
             raise ValueError("--speed takes a number above 0")
         board = board_of(options)
@@ -80,7 +93,18 @@ def main(arguments: list[str] | None = None) -> int:
         return _refused(str(problem))
     except ValueError as problem:
         return _refused(str(problem))
-    return run(board, options.link)
+    board.network_access.password = options.password or ""
+    faces: list[Face] = []
+    try:
+        if options.link is not None:
+            faces.append(terminal_at(board, options.link))
+        if address is not None:
+            faces.append(network_at(board, address, behind_computer=options.sbc))
+    except OSError as problem:
+        for face in faces:
+            face.stop()
+        return _refused(str(problem))
+    return run(faces)
 
 
 def _refused(problem: str) -> int:
@@ -88,26 +112,65 @@ def _refused(problem: str) -> int:
     return BAD_USAGE
 
 
-def run(board: Board, link: str) -> int:
-    """Serve the board at ``link`` until a signal comes."""
+def address_of(text: str) -> tuple[str, int]:
+    """Return host and port of ``[HOST:]PORT``."""
+    host, _, port = text.rpartition(":")
+    if not port.isdecimal() or int(port) > MOST_PORT:
+        raise ValueError(f"--http takes [HOST:]PORT, not {text!r}")
+    return host or LOCAL, int(port)
+
+
+class Face(NamedTuple):
+    """A way to the board that has been opened."""
+
+    where: str
+    stop: Callable[[], None]
+    error: Callable[[], BaseException | None] = lambda: None
+    """Returns what has ended it, if anything."""
+
+
+def terminal_at(board: Board, link: str) -> Face:
+    """Open a pseudo-terminal that is linked there."""
     from .pty import PtyBoard
 
-    ended = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: ended.set())
     terminal = PtyBoard(board, link)
     try:
         terminal.start()
     except OSError as problem:
-        return _refused(f"cannot open a terminal at {link}: {problem}")
+        raise OSError(f"cannot open a terminal at {link}: {problem}") from problem
+    return Face(link, terminal.stop, lambda: terminal.error)
+
+
+def network_at(board: Board, address: tuple[str, int], *, behind_computer: bool) -> Face:
+    """Serve the board at an address."""
+    from .network.http_board import HttpBoard
+    from .network.sbc_board import SbcBoard
+
+    host, port = address
     try:
-        print(f"ready {link}", flush=True)
+        served = (SbcBoard if behind_computer else HttpBoard)(board, host, port)
+    except OSError as problem:
+        raise OSError(f"cannot serve at {host}:{port}: {problem}") from problem
+    served.start()
+    return Face(served.url, served.stop)
+
+
+def run(faces: list[Face]) -> int:
+    """Serve a board until a signal comes."""
+    ended = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: ended.set())
+    try:
+        for face in faces:
+            print(f"ready {face.where}", flush=True)
         while not ended.wait(0.2):
-            if terminal.error is not None:
-                print(f"error: {terminal.error!r}", file=sys.stderr)
-                return 1
+            for face in faces:
+                if face.error() is not None:
+                    print(f"error: {face.error()!r}", file=sys.stderr)
+                    return 1
     finally:
-        terminal.stop()
+        for face in faces:
+            face.stop()
     return 0
 
 

@@ -18,8 +18,10 @@ from .device.incidents import DriveFaults, HeaterFault, UnaskedBox
 from .device.job import Job
 from .device.live_members import LiveMembers
 from .device.motion import Motion
+from .device.network_access import NetworkAccess
 from .device.outages import Outages
 from .device.power import Power
+from .device.printing.file_text import FileText, FolderText
 from .device.restart import Restart
 from .device.status import Status
 from .device.temperature_lines import TemperatureLines
@@ -37,7 +39,10 @@ from .gcodes.heaters import Heaters
 from .gcodes.homing import Homing
 from .gcodes.meta import MetaCommands
 from .gcodes.modes import Modes
+from .gcodes.monitors import Monitors
 from .gcodes.moves import Moves
+from .gcodes.network_settings import NetworkSettings
+from .gcodes.queries.diagnostics import Diagnostics
 from .gcodes.queries.identity import Identity
 from .gcodes.queries.m408_values import Names, Values
 from .gcodes.queries.object_model import ObjectModelCode
@@ -51,6 +56,8 @@ from .gcodes.storage.listing import Listing
 from .gcodes.storage.prints import Prints
 from .gcodes.system import System
 from .gcodes.tools import Tools
+from .gcodes.tuning import Tuning
+from .gcodes.upkeep import Upkeep
 from .hardware.blank import INPUT_NAMES, USB
 from .interpreter.decoder import Decoder
 from .interpreter.execution import Interpreter
@@ -98,8 +105,10 @@ class Assembly:
         self.plug = Plug(self.clock)
         self.output = Output(self.clock, self.faults, self.plug)
         self.replies = Replies(self.object_model)
+        self.network_access = NetworkAccess(self.object_model)
         self.channels = {name: self._channel(name) for name in INPUT_NAMES}
         self.usb_input = UsbInput(self.clock, self.channels[USB])
+        self.usb_input.said = lambda: self.output.said
 
     def _channel(self, name: str) -> Channel:
         write = self.output.reply if name == USB else self.replies.writer(name)
@@ -108,11 +117,13 @@ class Assembly:
     def _make_device(self) -> None:
         model, clock, output = self.object_model, self.clock, self.output
         self.card = Card()
+        self.folder_text = FolderText(self.card)
+        self.file_text = FileText(model, self.model_text, self.firmware)
         self.activity = Activity()
-        self.motion = Motion(model, clock)
+        self.motion = Motion(model, clock, self.firmware)
         self.warnings = ExtrusionWarnings(clock, output)
         self.power = Power(model, self.motion)
-        self.thermal = Thermal(model, self.power, clock)
+        self.thermal = Thermal(model=model, power=self.power, clock=clock, firmware=self.firmware)
         self.boxes = MessageBoxes(model, clock)
         self.job = Job(
             model=model,
@@ -129,6 +140,7 @@ class Assembly:
             job=self.job,
             boxes=self.boxes,
         )
+        self.monitors = Monitors(model)
         self.live = LiveMembers(
             model=model,
             clock=clock,
@@ -171,7 +183,7 @@ class Assembly:
                 gcodes=self.gcodes,
                 decoder=self.decoder,
                 emergency=self.emergency,
-                usb=self.channels[USB],
+                channel=self.channels[USB],
             )
             self.usb_input.takes = urgent.takes
         self.macros = Macros(
@@ -194,6 +206,7 @@ class Assembly:
             clock=clock,
             names=Names(firmware, self.mainboard),
         )
+        self.old_status = OldStatus(live, values)
         self.gcodes.register(
             Accepted(),
             macros,
@@ -207,7 +220,7 @@ class Assembly:
                 warnings=self.warnings,
             ),
             Coordinates(model, motion),
-            Homing(model=model, motion=motion, clock=clock, macros=macros),
+            Homing(model=model, motion=motion, clock=clock, macros=macros, card=card),
             Factors(model, motion),
             Modes(model, thermal),
             Tools(
@@ -218,35 +231,30 @@ class Assembly:
                 macros=macros,
                 firmware=firmware,
             ),
+            self.monitors,
             Filaments(model=model, motion=motion, card=card, macros=macros),
             Heaters(model, motion, thermal),
+            Tuning(model=model, motion=motion, thermal=thermal, clock=clock, output=output),
+            Upkeep(model=model, card=card, macros=macros, clock=clock, restart=self.restart),
             Fans(model),
             Spindles(model),
             Atx(model, thermal, firmware),
-            Display(model, clock, output),
+            Display(model=model, clock=clock, output=output, replies=self.replies),
+            NetworkSettings(self.network_access),
             BoxCodes(
                 clock=clock, firmware=firmware, boxes=self.boxes, faults=faults, output=output
             ),
             Reports(model=model, clock=clock, live=live, motion=motion, thermal=thermal),
-            Identity(model=model, clock=clock, firmware=firmware, mainboard=self.mainboard),
+            Identity(firmware, self.mainboard),
+            Diagnostics(model=model, clock=clock, firmware=firmware, mainboard=self.mainboard),
             ObjectModelCode(
-                model=model,
-                live=live,
-                model_text=self.model_text,
-                firmware=firmware,
-                faults=faults,
+                model=model, live=live, model_text=self.model_text, firmware=firmware, faults=faults
             ),
             Settings(model=model, motion=motion, thermal=thermal, card=card, firmware=firmware),
-            OldStatus(live, values),
-            Listing(card, faults),
+            self.old_status,
+            Listing(card, self.folder_text, faults),
             Files(model=model, card=card, job=job, clock=clock, output=output),
-            Information(
-                model=model,
-                card=card,
-                job=job,
-                model_text=self.model_text,
-                has_model=self.firmware.has_model,
-            ),
+            Information(card, job, self.file_text),
             Prints(job=job, card=card, motion=motion, macros=macros, live=live, output=output),
             System(
                 model=model,
@@ -272,6 +280,7 @@ class Assembly:
             self.thermal.restart,
             self.boxes.restart,
             self.job.restart,
+            self.monitors.restart,
             self.live.refresh,
             self.faults.restart,
         )

@@ -9,6 +9,7 @@ from typing import Any, Callable
 
 from .assembly import Assembly
 from .hardware.blank import INPUT_NAMES, USB
+from .line.channel import Channel
 from .line.usb_input import Received
 
 STEP = 0.25
@@ -40,6 +41,8 @@ class Board(Assembly):
         self._port = USB
         self._use_first_channels()
         self.restart.register(self._use_first_channels)
+        self.pumps: list[Callable[[], None]] = []
+        """Called whenever the channels have done what they can: they may have further input."""
         self._speed = speed
         self._wall_clock = clock
         self._started_at = clock()
@@ -153,12 +156,17 @@ class Board(Assembly):
             name = next((n for n in INPUT_NAMES if n.lower() == channel.lower()), None)
             if name is None or name == self._port:
                 raise ValueError(f"no channel {channel!r} to execute on")
+            self.use_channel(name).lines.extend(gcode.splitlines())
+            self._pump()
+            return self.replies.take(name)
+
+    def use_channel(self, name: str) -> Channel:
+        """Return a channel that the board looks at from now on."""
+        with self.lock:
             used = self.channels[name]
             if used not in self._used_channels:
                 self._used_channels.append(used)
-            used.lines.extend(gcode.splitlines())
-            self._pump()
-            return self.replies.take(name)
+            return used
 
     def message(self, text: str) -> None:
         """Send text to all outputs, USB among them."""
@@ -198,12 +206,13 @@ class Board(Assembly):
             if now >= target:
                 self._pump()
             while now < target:
-                step = STEP if self._has_work() else IDLE_STEP
+                step = STEP if self.is_at_work else IDLE_STEP
                 self._step(min(target, now + step, max(self.motion.next_end, now)))
                 now = self.clock.now
 
-    def _has_work(self) -> bool:
-        """Return whether something waits for a moment in time."""
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something waits for a moment in time."""
         return bool(
             self.clock.is_awaited
             or self.motion.is_moving
@@ -255,5 +264,7 @@ class Board(Assembly):
             self.interpreter.pump(file_channel)
             if self.job.position == position or not file_channel.is_idle:
                 break
+        for pump in self.pumps:
+            pump()
         self.warnings.tick()
         self.temperature_lines.tick()

@@ -8,7 +8,7 @@ from typing import Any, Callable
 Condition = Callable[[], bool]
 
 BOOT_TIME = "2024-11-05T08:00:00"
-"""Where the simulated wall clock starts at every restart."""
+"""Where the simulated wall clock starts at every restart, until somebody tells the time."""
 _BOOT = datetime.datetime.fromisoformat(BOOT_TIME)
 
 
@@ -19,6 +19,7 @@ class Clock:
         self.now = 0.0
         """Simulated seconds since the board was made."""
         self._booted_at = 0.0
+        self._wall: datetime.datetime | None = None
         self._waiting: list[tuple[Condition, Callable[[], None]]] = []
 
     @property
@@ -29,10 +30,16 @@ class Clock:
     def restart(self) -> None:
         """Count the time since the restart anew; what waits goes on waiting."""
         self._booted_at = self.now
+        self._wall = None
+
+    def set_wall(self, moment: datetime.datetime) -> None:
+        """Set the board's wall clock, which the first who tells the time does."""
+        if self._wall is None:
+            self._wall = moment - datetime.timedelta(seconds=self.up_time)
 
     def date_time(self) -> str:
         """Return the board's wall clock as the model shows it."""
-        moment = _BOOT + datetime.timedelta(seconds=int(self.up_time))
+        moment = (self._wall or _BOOT) + datetime.timedelta(seconds=int(self.up_time))
         return moment.isoformat()
 
     def after(self, seconds: float) -> Condition:

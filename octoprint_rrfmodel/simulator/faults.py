@@ -141,6 +141,34 @@ FAULTS: dict[str, Fault] = {
     "sbc": Fault("a single-board computer answers network and volumes"),
     "baud": Fault("output at the speed of a line with n baud (115200)", "115200"),
     "unread": Fault("replies that the host doesn't fetch for s seconds are lost for good (2)", "2"),
+    "net_loss": Fault(
+        "nothing gets through the network, for s seconds (until cleared)", ends_after_argument=True
+    ),
+    "net_refused": Fault(
+        "the board takes no connection, for s seconds (until cleared)", ends_after_argument=True
+    ),
+    "net_busy": Fault(
+        "no responder is free: connections are reset after 2 s, for s seconds (until cleared)",
+        ends_after_argument=True,
+    ),
+    "net_slow": Fault("every answer over the network comes s seconds late (2)", "2"),
+    "net_503": Fault("the next n requests are answered by 503 (all)"),
+    "net_reset": Fault("the connection is reset in the middle of the next n answers (1)", "1"),
+    "net_cut": Fault("the next n answers end in the middle, in an orderly way (1)", "1"),
+    "net_lost_answer": Fault("the next n requests are carried out and not answered (1)", "1"),
+    "net_foreign": Fault("the next n answers are somebody else's page (all)"),
+    "net_redirect": Fault("the next n answers lead to another place (all)"),
+    "net_garbled": Fault("the middle of the next n JSON answers is lost (1)", "1"),
+    "net_corrupt": Fault("a byte of the next n uploads is changed on its way (1)", "1"),
+    "net_full": Fault("all sessions are taken by others"),
+    "net_stale_key": Fault("the board forgets its sessions", is_event=True),
+    "net_sbc_down": Fault(
+        "SBC: its control server is down, for s seconds (until cleared)", ends_after_argument=True
+    ),
+    "net_sbc_version": Fault(
+        "SBC: its servers are of different versions, for s seconds (until cleared)",
+        ends_after_argument=True,
+    ),
     "usb_box_stuck": Fault("a blocking M291 from USB stops that channel for good (3.5 and 3.6.0)"),
 }
 """Name → fault, in the order of ``--list``."""

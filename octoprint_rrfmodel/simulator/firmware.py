@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 
 class UnknownFirmware(ValueError):
     """The version asked for isn't in :data:`VERSIONS`; the text names those that are."""
+
+
+Release = tuple[int, ...]
+"""The numbers of a version, as far as they matter."""
+
+
+def is_within(release: Release, since: Release | None, until: Release | None) -> bool:
+    """Return whether a release is one of those from ``since`` on and before ``until``."""
+    return (since is None or release >= since) and (until is None or release < until)
 
 
 @dataclass(frozen=True)
@@ -65,6 +75,16 @@ class Firmware:
     """3.6.2 and later put ``"line":n`` into JSON replies to numbered commands (RRF #1178)."""
     looks_at_usb: bool = True
     """3.6.3 and later act on M112, M108 and a bare M122 before they are queued."""
+    api_level: int = 2
+    """``apiLevel`` of rr_connect; 0 is none. From 2 on sessions have keys (3.5)."""
+    tells_full_input: bool = True
+    """3.4.5 and later answer an rr_gcode that doesn't fit with ``err``, before it is just lost."""
+    fills_queue_at_once: bool = False
+    """Up to 3.5 a move that begins makes room for the next at once (3.6 Move.cpp, MoveLoop)."""
+    heats_beyond: float = 5.0
+    """Degrees behind the target that a heater aims at when it comes near (seen in firmware)."""
+    heats_within: float = 5.6
+    """Seconds in which it nears them (seen in firmware: 3.5 is much slower)."""
     has_duet2: bool = True
     """Whether it runs on a Duet 2 (not 3.7 and later)."""
     needs_duet2: bool = False
@@ -75,83 +95,95 @@ class Firmware:
 
 
 # the dates of 3.6.1 and later stand for those of real builds
-_V37 = Firmware("3.7.0", (3, 7, 0), "2026-10-05", " 10:00:00", has_duet2=False)
-_V364 = replace(_V37, version="3.6.4", release=(3, 6, 4), date="2026-07-20", has_duet2=True)
-_V363 = replace(_V364, version="3.6.3", release=(3, 6, 3), date="2026-04-13")
-_V362 = replace(_V363, version="3.6.2", release=(3, 6, 2), date="2025-12-08", looks_at_usb=False)
-_V361 = replace(_V362, version="3.6.1", release=(3, 6, 1), date="2025-09-08", names_line=False)
-_V36 = replace(
-    _V361,
-    version="3.6.0",
-    release=(3, 6, 0),
-    date="2025-04-24",
-    time=" 11:38:13",
-    usb_box_opens=False,
+_CHANGES: tuple[tuple[str, str, str, dict[str, Any]], ...] = (
+    ("3.7", "3.7.0", "2026-10-05 10:00:00", {"has_duet2": False}),
+    ("3.6.4", "3.6.4", "2026-07-20 10:00:00", {"has_duet2": True}),
+    ("3.6.3", "3.6.3", "2026-04-13 10:00:00", {}),
+    ("3.6.2", "3.6.2", "2025-12-08 10:00:00", {"looks_at_usb": False}),
+    ("3.6.1", "3.6.1", "2025-09-08 10:00:00", {"names_line": False}),
+    ("3.6", "3.6.0", "2025-04-24 11:38:13", {"usb_box_opens": False}),
+    (
+        "3.5.3",
+        "3.5.3",
+        "2024-10-01 14:21:40",
+        {"fills_queue_at_once": True, "heats_beyond": 10.0, "heats_within": 13.3},
+    ),
+    (
+        "3.5.1",
+        "3.5.1",
+        "2024-04-19 14:30:54",
+        {"report_interval": 1.0, "report_follows_request": False},
+    ),
+    (
+        "3.4",
+        "3.4.6",
+        "2023-07-21 14:08:28",
+        {
+            "waits_for_buffers": False,
+            "api_level": 1,
+            "axes_limit": None,
+            "leaf_ends_key": True,
+            "error_column": False,
+            "move_error_names_next": False,
+            "box_modes": 3,
+            "usb_box_opens": True,
+        },
+    ),
+    (
+        "3.3",
+        "3.3",
+        "2021-06-15 21:46:11",
+        {
+            "m115_date_twice": True,
+            "tells_full_input": False,
+            "line_length": 201,
+            "has_crc": False,
+            "duet2_buffers": 24,
+            "has_important_flag": False,
+            "has_events": False,
+            "has_cancelling": False,
+        },
+    ),
+    (
+        "2.05",
+        "2.05.1",
+        "2020-02-09b1",
+        {
+            "m115_date_twice": False,
+            "has_model": False,
+            "api_level": 0,
+            "has_m568": False,
+            "needs_duet2": True,
+        },
+    ),
 )
-_V353 = replace(_V36, version="3.5.3", release=(3, 5, 3), date="2024-10-01", time=" 14:21:40")
-_V351 = replace(
-    _V353,
-    version="3.5.1",
-    release=(3, 5, 1),
-    date="2024-04-19",
-    time=" 14:30:54",
-    report_interval=1.0,
-    report_follows_request=False,
-)
-_V34 = replace(
-    _V351,
-    version="3.4.6",
-    release=(3, 4, 6),
-    date="2023-07-21",
-    time=" 14:08:28",
-    waits_for_buffers=False,
-    axes_limit=None,
-    leaf_ends_key=True,
-    error_column=False,
-    move_error_names_next=False,
-    box_modes=3,
-    usb_box_opens=True,
-)
-_V33 = replace(
-    _V34,
-    version="3.3",
-    release=(3, 3, 0),
-    date="2021-06-15",
-    time=" 21:46:11",
-    m115_date_twice=True,
-    line_length=201,
-    has_crc=False,
-    duet2_buffers=24,
-    has_important_flag=False,
-    has_events=False,
-    has_cancelling=False,
-)
-_V205 = replace(
-    _V33,
-    version="2.05.1",
-    release=(2, 5, 1),
-    date="2020-02-09b1",
-    time="",
-    m115_date_twice=False,
-    has_model=False,
-    has_m568=False,
-    needs_duet2=True,
-)
+"""Name, version, build, and what differs from the row above, the next newer one."""
 
-VERSIONS: dict[str, Firmware] = {
-    "2.05": _V205,
-    "3.3": _V33,
-    "3.4": _V34,
-    "3.5.1": _V351,
-    "3.5.3": _V353,
-    "3.6": _V36,
-    "3.6.1": _V361,
-    "3.6.2": _V362,
-    "3.6.3": _V363,
-    "3.6.4": _V364,
-    "3.7": _V37,
-}
-"""The versions that can be asked for by name."""
+
+def _release(version: str) -> tuple[int, ...]:
+    numbers = [int(number) for number in version.split(".")]
+    return tuple([*numbers, 0, 0][:3])
+
+
+def _versions() -> dict[str, Firmware]:
+    found: dict[str, Firmware] = {}
+    newer = Firmware("", (), "")
+    for name, version, build, changes in _CHANGES:
+        date, blank, time = build.partition(" ")
+        newer = replace(
+            newer,
+            version=version,
+            release=_release(version),
+            date=date,
+            time=blank + time,
+            **changes,
+        )
+        found[name] = newer
+    return dict(reversed(list(found.items())))
+
+
+VERSIONS = _versions()
+"""The versions that can be asked for by name, the oldest first."""
 
 ALIASES = {
     "2.05.1": "2.05",

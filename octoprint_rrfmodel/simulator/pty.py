@@ -15,6 +15,11 @@ from typing import Any
 from .board import Board
 
 TICK_SECONDS = 0.002
+"""Between two looks at a board that is at work."""
+
+IDLE_SECONDS = 0.02
+"""The same where nothing but a line from the host, which is heard at once, can make it work."""
+
 CHUNK = 4096
 DROP_AFTER_SECONDS = 2.0
 """USB bytes that nobody fetches for so long are lost (RRF 3.5 Platform.cpp:1055)."""
@@ -116,7 +121,7 @@ class PtyBoard:
             self.board.transmit()
             self._unsent = b""
             self.turns_alone += 1
-            self._stop.wait(TICK_SECONDS)
+            self._stop.wait(IDLE_SECONDS)
             return
         self.turns_alone = 0
         self._send()
@@ -126,7 +131,8 @@ class PtyBoard:
         poll = select.poll()
         wanted = select.POLLIN if self.board.has_room else 0
         poll.register(master, wanted | (select.POLLOUT if self._unsent else 0))
-        found = poll.poll(TICK_SECONDS * 1000)
+        seconds = TICK_SECONDS if self.board.is_at_work or self._unsent else IDLE_SECONDS
+        found = poll.poll(seconds * 1000)
         return found[0][1] if found else 0
 
     def _send(self) -> None:

@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import pathlib
 
 import pytest
 
 from octoprint_rrfmodel.simulator.board import Board
-
-SHARED = pathlib.Path(
-    os.environ.get("RRF_SHARED") or pathlib.Path(__file__).resolve().parents[3] / "shared"
-)
+from tests.support.recordings import RECORDINGS
 
 
 class Bench:
@@ -73,7 +68,7 @@ def bench():
 @pytest.fixture
 def captures():
     """The folder of captured replies of real boards."""
-    folder = SHARED / "captures"
+    folder = RECORDINGS / "captures"
     if not folder.is_dir():
         pytest.skip(f"no captures: {folder} isn't there, set RRF_SHARED")
     return folder
@@ -82,7 +77,7 @@ def captures():
 @pytest.fixture
 def golden():
     """Answers of the firmware's own code on a synthetic tree."""
-    path = SHARED / "golden" / "m409-small.json"
+    path = RECORDINGS / "golden" / "m409-small.json"
     if not path.is_file():
         pytest.skip(f"no golden answers: {path} isn't there, set RRF_SHARED")
     return json.loads(path.read_text(encoding="utf-8"))

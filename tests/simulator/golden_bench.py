@@ -52,6 +52,10 @@ _MASKS = (
     (re.compile(r"(Printing paused at X).*"), r"\1<mm>"),
     (re.compile(r'"time":("[^"]*"|null)'), '"time":<now>'),
     (re.compile(r"line \d+ column \d+"), "line <n> column <n>"),
+    (re.compile(r"=== RTOS ===\n[^=]*"), ""),
+    (re.compile(r"(?m)^(HTTP|Telnet|LCD|SBC) is .*\n"), ""),
+    (re.compile(r"(running on Duet 3 Mini5plus|Board ID:) .*"), r"\1 <board>"),
+    (re.compile(r"((Driver|Extruder) \d+( sensor)?:) .*"), r"\1 <state>"),
     (re.compile(r"under-voltage event \([\d.]+V\)"), "under-voltage event (<volts>)"),
 )
 """What is of the moment, of the build or of the card: measurements, dates, names, sizes."""
@@ -70,10 +74,17 @@ def lines_of(said):
 
 
 def _shaped(line):
-    """Return the line, numbers of JSON left out."""
+    """Return the line, numbers of JSON left out, and those that M122 has counted or measured."""
+    if _COUNTS.match(line):
+        return _ANY_NUMBER.sub("#", line)
     return _NUMBER.sub(r"\1#", line) if line.startswith('{"') else line
 
 
+_COUNTS = re.compile(
+    r"Used output|Last reset|Supply voltage|Heap OK|Date/time|Slowest|SD card longest|check |"
+    r"DMs created|Segments created"
+)
+_ANY_NUMBER = re.compile(r"-?\d[-\d.:]*")
 _NUMBER = re.compile(r"([:\[,])-?\d[-+.\de]*")
 
 

@@ -15,8 +15,9 @@ from octoprint_rrfmodel.simulator.model.om import number
 from octoprint_rrfmodel.simulator.text.command import SyntaxProblem
 from octoprint_rrfmodel.simulator.text.cutting import commands_of
 from octoprint_rrfmodel.simulator.text.serial_line import crc16, parse_line, xor
+from tests.support.examples import some
 
-EXAMPLES = settings(max_examples=60, deadline=None)
+EXAMPLES = settings(max_examples=some(60), deadline=None)
 CODES = [code for code in Board().gcodes.names() if code != "meta"]
 VALUES = st.one_of(
     st.integers(-2000, 2000).map(str),

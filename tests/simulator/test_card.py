@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import struct
+import zlib
 
 import pytest
 
@@ -166,14 +169,28 @@ def test_information_before_there_was_a_model(bench):
     assert text.endswith(',"printDuration":10,"fileName":"0:/gcodes/square.gcode"}\n\nok\n')
 
 
+def picture_of(png):
+    """Return width, height and pixels of a grey PNG, whose sums are right."""
+    assert png.startswith(b"\x89PNG\r\n\x1a\n")
+    place, parts = 8, {}
+    while place < len(png):
+        (length,) = struct.unpack_from(">I", png, place)
+        name, data = png[place + 4 : place + 8], png[place + 8 : place + 8 + length]
+        assert zlib.crc32(name + data) == struct.unpack_from(">I", png, place + 8 + length)[0]
+        parts[name] = data
+        place += 12 + length
+    return (*struct.unpack_from(">II", parts[b"IHDR"]), zlib.decompress(parts[b"IDAT"]))
+
+
 def test_thumbnail(bench):
     board = bench()
     offset = listing(board, 'M36 "square.gcode"')["thumbnails"][0]["offset"]
     found = listing(board, f'M36.1 P"square.gcode" S{offset}')["thumbnail"]
+    # a true one, which a browser shows
+    assert picture_of(base64.b64decode(found.pop("data")))[:2] == (32, 32)
     assert found == {
         "fileName": "square.gcode",
         "offset": offset,
-        "data": "QUJDREVGR0hJ",
         "next": 0,
         "err": 0,
     }

@@ -6,8 +6,10 @@ import json
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import sys
+import urllib.request
 
 import pytest
 
@@ -60,6 +62,26 @@ def test_without_a_link(capsys):
     assert "--link" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("arguments", [["--sbc"], ["--password", "x"]], ids=" ".join)
+def test_what_is_for_the_network_alone(capsys, link, arguments):
+    assert main(["--link", link, *arguments]) == 2
+    assert capsys.readouterr().err == "error: --sbc and --password are for --http\n"
+
+
+@pytest.mark.parametrize("address", ["x", "1:x", "65536", "::", "-1", ""])
+def test_an_address_that_is_none(capsys, address):
+    assert main([f"--http={address}"]) == 2
+    assert capsys.readouterr().err.startswith("error: --http takes [HOST:]PORT, not ")
+
+
+def test_a_port_that_is_taken(capsys):
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        assert main(["--http", str(other.getsockname()[1])]) == 2
+    assert capsys.readouterr().err.startswith("error: cannot serve at 127.0.0.1:")
+
+
 def test_machine_and_model_exclude_each_other(capsys):
     with pytest.raises(SystemExit) as ended:
         main(["--link", "x", "--machine", "delta", "--model", "x"])
@@ -103,6 +125,49 @@ def test_a_signal_ends_it_cleanly(run, link, number):
     out, err = process.communicate(timeout=10)
     assert (process.returncode, out, err) == (0, "", "")
     assert not os.path.lexists(link)
+
+
+def answer(url):
+    with urllib.request.urlopen(url, timeout=10) as reply:
+        return json.load(reply)
+
+
+@pytest.fixture
+def served():
+    """Starts the command on the network; returns it with the lines that it has said."""
+    started = []
+
+    def start(*arguments, lines=1):
+        process = subprocess.Popen(
+            [*COMMAND, "--http", "0", *arguments],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        return [process.stdout.readline().split()[1] for _ in range(lines)]
+
+    yield start
+    for process in started:
+        process.send_signal(signal.SIGTERM)
+        assert process.communicate(timeout=10) == ("", "")
+        assert process.returncode == 0
+
+
+def test_http_and_a_terminal_lead_to_the_same_board(served, link):
+    where, url = served("--link", link, "--password", "secret", lines=2)
+    assert where == link
+    assert answer(f"{url}/rr_connect?password=")["err"] == 1
+    assert answer(f"{url}/rr_connect?password=secret")["boardType"] == "duet5lcwifi"
+    ask(link, "G10 P0 X3.5")
+    assert answer(f"{url}/rr_model?key=tools[0].offsets[0]&flags=v")["result"] == 3.5
+
+
+def test_behind_a_computer(served):
+    (url,) = served("--sbc", "--firmware", "3.4")
+    assert url.startswith("http://127.0.0.1:")
+    assert answer(f"{url}/machine/status")["state"]["dsfVersion"] == "3.4.6"
 
 
 def ask(link, line):

@@ -39,6 +39,16 @@ WIRE = {
         '{"key":"heat.heaters[0]","flags":"f","result":{"active":0,"avgPwm":0,"current":nan,'
         '"standby":0,"state":"off"}}\n\nok\n',
     ),
+    "nan is no number of a heater": (
+        "nan",
+        'M409 K"tools[0].heaters" F"v"',
+        '{"key":"tools[0].heaters","flags":"v","result":[1],"next":0}\n\nok\n',
+    ),
+    "nan is no motor's current": (
+        "nan",
+        'M409 K"move.extruders[0].current" F"v"',
+        '{"key":"move.extruders[0].current","flags":"v","result":800}\n\nok\n',
+    ),
     "exponent": (
         "exponent",
         'M409 K"heat.heaters[].current"',

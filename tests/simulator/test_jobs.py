@@ -38,7 +38,8 @@ def test_the_life_of_a_print(bench):
     assert job["duration"] is None
     assert job["lastFileName"] == "0:/gcodes/Two layers.gcode"
     assert job["lastDuration"] > 60
-    assert 50 < job["lastWarmUpDuration"] < job["lastDuration"]
+    # homing isn't warming up
+    assert 40 < job["lastWarmUpDuration"] < job["lastDuration"] - 10
 
 
 def test_select_then_start(bench):
@@ -53,12 +54,15 @@ def test_progress(printing):
     job = printing.board.model["job"]
     assert 0 < job["filePosition"] < job["file"]["size"]
     assert job["layerTime"] is not None
-    assert job["warmUpDuration"] > 50
+    assert job["warmUpDuration"] > 40
     assert job["rawExtrusion"] > 0
     assert job["build"]["objects"] == [
         {"cancelled": False, "name": "square", "x": [80, 120], "y": [80, 120]}
     ]
-    left = job["timesLeft"]
+    # the pace is measured every 30 s (3.5 PrintMonitor.cpp)
+    assert (job["timesLeft"]["file"], job["timesLeft"]["filament"]) == (None, None)
+    printing.wait(30)
+    left = printing.ask("job.timesLeft")
     assert 0 < left["file"] < 1000
     assert left["slicer"] < 200
     assert left["filament"] > 0

@@ -199,7 +199,7 @@ def test_printing(bench):
     board = bench()
     board.send('M32 "square.gcode"')
     board.until(lambda b: (b.model["job"]["layer"] or 0) >= 3)
-    board.wait(10)
+    board.wait(30)
     found = status(board, 4)
     assert found["currentLayer"] >= 3
     assert 0 < found["fractionPrinted"] < 100

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from octoprint_rrfmodel.simulator.hardware.planning import START_DELAY
+
 
 def positions(board, member="machinePosition"):
     return [round(axis[member], 3) for axis in board.board.model["move"]["axes"]]
@@ -41,7 +43,7 @@ def test_homing_again_unhomes_first(bench):
 def test_positions_interpolate(bench):
     board = bench().homed()
     board.send("G1 X60 F600")
-    board.wait(3)
+    board.wait(START_DELAY + 3)
     assert positions(board)[0] == pytest.approx(30, abs=0.1)
     assert board.board.model["move"]["currentMove"]["requestedSpeed"] == 10
     board.wait(3.1)
@@ -67,7 +69,7 @@ def test_speed_factor_applies(bench):
 def test_axis_speed_limits_the_feed(bench):
     board = bench().homed()
     board.send("G1 Z150 F60000")
-    board.wait(5)
+    board.wait(START_DELAY + 5)
     assert positions(board)[2] == pytest.approx(75, abs=1.5)
 
 
@@ -298,6 +300,23 @@ def test_probing(bench):
     assert board.ask("move.compensation.type") == "none"
 
 
+def test_height_map_is_a_file_of_the_card(bench):
+    board = bench().homed()
+    card = board.board.card
+    board.done("G29")
+    lines = card.read("0:/sys/heightmap.csv").decode().splitlines()
+    assert lines[0].startswith("RepRapFirmware height map file v2 generated at 2024-11-05 08:0")
+    assert lines[0].endswith("mean -0.012, deviation 0.043")
+    assert lines[1].startswith("axis0,axis1,min0,")
+    assert lines[2] == "X,Y,15.00,215.00,15.00,195.00,-1.00,20.00,20.00,11,10"
+    assert [len(line.split(",")) for line in lines[3:]] == [11] * 10
+    assert {len(cell) for line in lines[3:] for cell in line.split(",")} == {7}
+    board.send('G29 S3 P"other.csv"')
+    assert card.read("0:/sys/other.csv") is not None
+    board.send('G29 S1 P"other.csv"')
+    assert board.ask("move.compensation.file") == "0:/sys/other.csv"
+
+
 def test_probing_unhomed(bench):
     expected = "Error: G29: Insufficient axes homed for bed probing\nok\n"
     assert bench().done("G29") == expected
@@ -310,8 +329,64 @@ def test_probing_without_a_probe(bench):
 def test_m114_while_moving(bench):
     board = bench().homed()
     board.send("G1 X60 F600")
-    board.wait(3)
-    assert board.send("M114").startswith("X:30.000 Y:0.000 Z:0.000 E:0.000 E0:0.0 Count 2400 0 0")
+    board.wait(START_DELAY + 3)
+    told = board.send("M114")
+    # where it ends, and the steps of this moment, which the acceleration keeps below 2400
+    assert told == (
+        "X:60.000 Y:0.000 Z:0.000 E:0.000 E0:0.0 Count 2399 0 0 Machine 60.000 0.000 0.000 "
+        "Bed comp 0.000\nok\n"
+    )
+
+
+def seconds_of(board, *lines):
+    """Return how long the moves of these lines take, in simulated seconds."""
+    board.send(*lines)
+    moves = board.board.motion._moves
+    return [round(move.seconds, 4) for move in moves]
+
+
+def test_moves_are_planned_under_acceleration_and_jerk(bench):
+    board = bench().homed()
+    # 3000 mm/s², 10 mm/s: from rest, around a corner, to rest; 0.2 mm of Z never get to speed
+    assert seconds_of(board, "G1 X40 F2400", "G1 X40 Y40", "G1 Z0.2 F900") == [
+        pytest.approx(1 + 40**2 / 240000 + 30**2 / 240000, abs=1e-3),
+        pytest.approx(1 + 40**2 / 240000 + 30**2 / 240000, abs=1e-3),
+        pytest.approx(2 * (0.2 / 100) ** 0.5, abs=1e-3),
+    ]
+
+
+def test_a_chain_of_short_moves_gets_to_speed(bench):
+    board = bench().homed()
+    taken = seconds_of(board, *(f"G1 X{x / 2} F6000" for x in range(1, 31)))
+    assert taken[15] == pytest.approx(0.005, abs=1e-4)
+    assert taken[0] == pytest.approx(taken[-1], abs=1e-3) and taken[0] > 0.01
+
+
+def test_pressure_advance_makes_printing_moves_slower(bench):
+    board = bench().homed()
+    board.done("T0")
+    board.board.model["heat"]["heaters"][1].update(current=205.0, active=205.0, state="active")
+    (alone,) = seconds_of(board, "M83", "G1 X50 E5 F1200")
+    # 5 mm/s of the extruder's jerk and 0.045 s: 1111 mm/s² where 1 mm takes 0.1 mm
+    assert alone == pytest.approx(2.5 + 2 * 20**2 / (2 * 20 * 1111), abs=1e-3)
+
+
+@pytest.mark.parametrize(("firmware", "at_once"), [("3.5.3", 4), ("3.6", 3)])
+def test_room_behind_the_first_move(bench, firmware, at_once):
+    board = bench(firmware=firmware).homed()
+    board.send(*(f"G1 X{10 if turn % 2 else 110} F600" for turn in range(1, 8)))
+    board.send("G1 X10")
+    assert board.board.motion.is_full
+    assert len(board.board.motion._moves) == at_once
+    board.wait(0.6)
+    assert len(board.board.motion._moves) == 4
+
+
+def test_homing_where_it_was_homed_to_is_shorter(bench):
+    board = bench().homed()
+    board.send("G28")
+    assert board.wait(4.2) == ""
+    assert board.wait(0.3) == "ok\n"
 
 
 def test_coordinates_alone_continue_on_a_router(bench):

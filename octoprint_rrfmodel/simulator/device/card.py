@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import posixpath
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..text.letters import utf8
 from .sample import SAMPLE_FILES, SAMPLE_FOLDERS
 
+ROOTS = ("0:", "0:/")
+REFUSED = frozenset('\\:*?"<>|')
 GCODES = "0:/gcodes"
 SYSTEM = "0:/sys"
 MACROS = "0:/macros"
@@ -47,28 +49,43 @@ class Card:
             full = f"{folder}/{name}"
         return full[:2] + posixpath.normpath(full[2:] or "/").rstrip("/")
 
+    @staticmethod
+    def may_be(path: str) -> bool:
+        """Return whether a file or folder can have that path: FAT refuses some letters."""
+        return path.startswith("0:/") and not REFUSED & set(path[2:])
+
     def _stored(self, path: str) -> str | None:
         wanted = path.lower()
         return next((known for known in self._files if known.lower() == wanted), None)
 
     def has_folder(self, path: str) -> bool:
         wanted = path.lower()
-        return path in ("0:", "0:/") or any(known.lower() == wanted for known in self._folders)
+        return path in ROOTS or any(known.lower() == wanted for known in self._folders)
 
     def make_folder(self, path: str) -> None:
-        while path not in ("0:", "0:/") and not self.has_folder(path):
+        while "/" in path and path not in ROOTS and not self.has_folder(path):
             self._folders.append(path)
             path = posixpath.dirname(path)
 
     def write(self, path: str, content: str, date: str = "2024-11-05T08:10:00") -> None:
         """Make or replace a file, and the folders it is in."""
+        self.store(path, utf8(content), date)
+
+    def store(self, path: str, content: bytes, date: str) -> None:
+        """Make or replace a file of bytes, and the folders it is in."""
         self.make_folder(posixpath.dirname(path))
         stored = self._stored(path) or path
-        self._files[stored] = bytearray(utf8(content))
+        self._files[stored] = bytearray(content)
         self._dates[stored] = date
 
     def append(self, path: str, text: str) -> None:
         self._files[self._stored(path) or path] += utf8(text)
+
+    def add(self, path: str, data: bytes) -> None:
+        """Write further bytes into a file, nowhere if it has gone meanwhile."""
+        stored = self._stored(path)
+        if stored is not None:
+            self._files[stored] += data
 
     def read(self, path: str) -> bytes | None:
         """Return the content; ``None`` where there is no such file."""
@@ -98,6 +115,29 @@ class Card:
             return True
         return False
 
+    def delete_tree(self, path: str) -> bool:
+        """Remove a file, or a folder with all that is in it; return whether there was one."""
+        inside = path.lower() + "/"
+        for known in [name for name in self._files if name.lower().startswith(inside)]:
+            del self._files[known], self._dates[known]
+        self._folders = [name for name in self._folders if not name.lower().startswith(inside)]
+        return self.delete(path)
+
+    def rename(self, old: str, new: str) -> bool:
+        """Give a file or a folder another path; return whether there was one."""
+        is_folder = self._stored(old) is None
+        if is_folder and not self.has_folder(old):
+            return False
+        self.make_folder(posixpath.dirname(new))
+        for kept in (self._files, self._dates):
+            self._rename_keys(kept, old, new)
+        self._folders = [_moved(name, old, new) for name in self._folders]
+        return True
+
+    def _rename_keys(self, kept: dict[str, Any], old: str, new: str) -> None:
+        for name in [name for name in kept if _moved(name, old, new) != name]:
+            kept[_moved(name, old, new)] = kept.pop(name)
+
     def entries(self, folder: str) -> list[Entry]:
         """Return what is in a folder, folders among the files as the card has them."""
         inside = folder.rstrip("/").lower() + "/"
@@ -111,3 +151,10 @@ class Card:
             if known.lower().startswith(inside) and "/" not in name:
                 found.append(Entry(name, False, len(content), self._dates[known]))
         return found
+
+
+def _moved(name: str, old: str, new: str) -> str:
+    """Return what a path is called after ``old``, which it may lie in, has become ``new``."""
+    if name.lower() == old.lower() or name.lower().startswith(old.lower() + "/"):
+        return new + name[len(old) :]
+    return name

@@ -14,6 +14,10 @@ from .thermal import Thermal
 
 OVER_TEMPERATURE = 0x02
 """Bit of ``boards[].drivers[].status``."""
+ALWAYS = 2
+"""``enableMode`` of a filament monitor that looks whoever prints (M591 S2)."""
+FILAMENT_ERRORS = {"simple": "noFilament"}
+"""Type of a filament monitor → what it reports, where that isn't ``tooLittleMovement``."""
 BOX_TITLE = "Simulated"
 BOX_MESSAGE = "Is the simulated bed clear?"
 
@@ -72,10 +76,12 @@ class DriveFaults:
         """With M591 S1 this is only in the model unless the board itself prints."""
         index = _index(argument)
         monitors = self._monitors()
-        if index < len(monitors) and monitors[index] is not None and "status" in monitors[index]:
-            monitors[index]["status"] = "tooLittleMovement"
-        if self._job.is_printing:
-            text = f"Filament error on extruder {index}: tooLittleMovement"
+        monitor = (monitors[index] if index < len(monitors) else None) or {}
+        status = FILAMENT_ERRORS.get(monitor.get("type", ""), "tooLittleMovement")
+        if "status" in monitor:
+            monitor["status"] = status
+        if self._job.is_printing or monitor.get("enableMode") == ALWAYS:
+            text = f"Filament error on extruder {index}: {status}"
             self._events.announce(text, opens_box=False)
 
     def _filament_back(self) -> None:

@@ -14,10 +14,12 @@ from ..hardware.blank import no_job
 from ..line.channel import Channel
 from ..line.output import Output
 from ..model.tree import ObjectModel
-from .build_objects import BuildObjects
 from .card import Card
-from .fileinfo import file_info
 from .motion import Motion
+from .printing.build_objects import BuildObjects
+from .printing.fileinfo import file_info
+from .printing.progress import Progress
+from .thermal import HeatWait
 
 _LAYER_COMMENT = re.compile(r";LAYER_CHANGE|;LAYER:(\d+)")
 """A slicer's layer change; the group is its number from 0 where it gives one."""
@@ -52,6 +54,7 @@ class Job:
         self._channel = channel
         self._output = output
         self.objects = BuildObjects(model)
+        self.progress = Progress()
         self.restart()
 
     def restart(self) -> None:
@@ -61,10 +64,7 @@ class Job:
         self._lines: list[bytes] = []
         self._next = 0
         self.position = 0
-        self.duration = 0.0
-        self._pause_seconds = 0.0
-        self._warm_up: float | None = None
-        self._layer_started = 0.0
+        self.progress.restart()
         self.objects.restart()
         self._is_ending = False
 
@@ -74,8 +74,18 @@ class Job:
         return self.state not in (None, SELECTED)
 
     @property
+    def printed_path(self) -> str | None:
+        """The file that is being printed or paused, ``None`` without one."""
+        return self.path if self.is_printing else None
+
+    @property
     def is_running(self) -> bool:
         return self.state == PRINTING
+
+    @property
+    def duration(self) -> float:
+        """Seconds since the print has begun, without its pauses."""
+        return self.progress.duration
 
     @property
     def line_number(self) -> int:
@@ -129,8 +139,7 @@ class Job:
     def start(self, simulate: bool = False) -> None:
         """Begin to print the selected file."""
         self.state, self.is_simulation = PRINTING, simulate
-        self.duration = self._pause_seconds = 0.0
-        self._warm_up, self._layer_started = None, 0.0
+        self.progress.restart()
         self.objects.restart()
         job = self.data
         job["file"]["fileName"] = self.path
@@ -182,8 +191,10 @@ class Job:
         """Let the position of a simulated print follow its time; nothing is executed."""
         info = self.data.get("file") or {}
         total = info.get("printTime") or len(self._lines) / 10
-        self.position = min(int(info.get("size") or 0), int(self.duration / total * info["size"]))
-        if self.duration >= total:
+        self.position = min(
+            int(info.get("size") or 0), int(self.progress.duration / total * info["size"])
+        )
+        if self.progress.duration >= total:
             self.finish(cancelled=False)
 
     def _comment(self, text: str) -> None:
@@ -193,11 +204,8 @@ class Job:
             self._layer(int(given) + 1 if given else (self.data.get("layer") or 0) + 1)
 
     def _layer(self, number: int) -> None:
-        if self._warm_up is None:
-            self._warm_up = self.duration
-            self.data["warmUpDuration"] = int(self.duration)
         self.data.update(layer=number, layerTime=0.0)
-        self._layer_started = self.duration
+        self.progress.begin_layer()
 
     def extruded(self, amount: float, position: Sequence[float]) -> None:
         """Count what a printing move extrudes."""
@@ -209,48 +217,35 @@ class Job:
         if not self.is_printing:
             return
         if self.state == PRINTING:
-            self.duration += seconds * (SIMULATION_SPEED if self.is_simulation else 1.0)
+            speed = SIMULATION_SPEED if self.is_simulation else 1.0
+            self.progress.step(seconds * speed, isinstance(self._channel.wait, HeatWait))
+            self.progress.measure(self.fraction_printed(), self.data.get("rawExtrusion") or 0.0)
         elif self.state in (PAUSED, PAUSING, RESUMING):
-            self._pause_seconds += seconds
+            self.progress.paused += seconds
 
     def show(self) -> None:
         """Put the progress into the model."""
         if not self.is_printing:
             return
-        job = self.data
-        job["duration"] = int(self.duration)
-        job["pauseDuration"] = int(self._pause_seconds)
-        if self._warm_up is None:
-            job["warmUpDuration"] = int(self.duration)
+        job, progress = self.data, self.progress
+        job["duration"] = int(progress.duration)
+        job["pauseDuration"] = int(progress.paused)
+        job["warmUpDuration"] = int(progress.warm_up)
         if job.get("layer"):
-            job["layerTime"] = self.duration - self._layer_started
+            job["layerTime"] = progress.layer_time
         job["filePosition"] = self.position
         job["build"] = self.objects.build()
-        self._times_left(job)
-
-    def _times_left(self, job: dict[str, Any]) -> None:
-        left = job.setdefault("timesLeft", {})
-        fraction = self.fraction_printed()
-        printing = max(0.0, self.duration - (self._warm_up or 0.0))
-        info = job.get("file") or {}
-        if self._warm_up is None or fraction <= 0.0 or printing < 1.0:
-            left["file"] = left["filament"] = None
-        else:
-            left["file"] = int(printing * (1 - fraction) / fraction)
-            total = sum(info.get("filament") or ())
-            used = job.get("rawExtrusion") or 0.0
-            if total > 0 and used > 0:
-                left["filament"] = max(0, int(printing * (total - used) / used))
-        slicer = info.get("printTime")
-        left["slicer"] = None if slicer is None else max(0, int(slicer - printing))
+        info, used = job.get("file") or {}, job.get("rawExtrusion") or 0.0
+        left = progress.times_left(info, self.fraction_printed(), used)
+        job.setdefault("timesLeft", {}).update(left)
 
     def finish(self, cancelled: bool) -> None:
         """End the job and tell everybody."""
         job = self.data
-        hours, minutes = divmod(int(self.duration) // 60, 60)
+        hours, minutes = divmod(int(self.progress.duration) // 60, 60)
         name, simulated = self.path or "", self.is_simulation
-        last = 0 if cancelled else int(self.duration)
-        warm_up = 0 if cancelled else int(self._warm_up or 0)
+        last = 0 if cancelled else int(self.progress.duration)
+        warm_up = 0 if cancelled else int(self.progress.warm_up)
         info = {**(job.get("file") or {}), "fileName": None}
         self._model.data["job"] = self._model.members_of(no_job(), "job")
         self.data.update(lastFileName=name, file=info)

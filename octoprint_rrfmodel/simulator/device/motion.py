@@ -5,51 +5,34 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Container, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..clock import Clock
+from ..firmware import Firmware
+from ..hardware.planning import Move, append, append_timed, drives_of
 from ..model.tree import ObjectModel
 
 LONG_QUEUE, SHORT_QUEUE = 2.0, 0.5
 """Seconds of waiting moves from which the queue takes no more."""
-USUAL_ACCELERATION = 1000.0
 RETURN_SPEED = 100.0
 """mm/s"""
-
-
-def _seconds(distance: float, speed: float, acceleration: float, jerk: float) -> float:
-    """Return how long a move takes among others; what the jerk allows costs no time."""
-    if distance * acceleration <= speed * speed:
-        return 2 * math.sqrt(distance / acceleration)
-    return distance / speed + max(0.0, speed - jerk) ** 2 / (2 * speed * acceleration)
-
-
-class Move(NamedTuple):
-    """A queued move: machine coordinates of its two ends, extruder positions, and its times."""
-
-    start: float
-    end: float
-    begin: Sequence[float]
-    target: Sequence[float]
-    extruded: Sequence[float]
-    """Extrusion of each extruder in mm."""
-    speed: float
-    """mm/s"""
-    acceleration: float
-    origin: int | None
-    """Index of the line of a print file that it comes from."""
+LONGEST_SLEEP, AHEAD = 0.5, 0.1
+"""Seconds for which firmware that doesn't look for room sleeps, and how early it wakes."""
 
 
 class Motion:
     """Takes moves, and lets the model's positions follow them in simulated time."""
 
-    def __init__(self, model: ObjectModel, clock: Clock):
+    def __init__(self, model: ObjectModel, clock: Clock, firmware: Firmware):
         self._model = model
         self._clock = clock
+        self._firmware = firmware
         self.restart()
 
     def restart(self) -> None:
         self._moves: deque[Move] = deque()
+        self._began_crowded: Move | None = None
+        """The move in front of others that had no room any more before it began."""
         self._target: list[float] = []
         self._extruded_done: list[float] = []
         self.last_code: int | None = None
@@ -103,9 +86,26 @@ class Motion:
         """
         if len(self._moves) >= self._model.queue_length:
             return True
-        now = self._clock.now
-        waiting = [move.end - move.start for move in self._moves if move.start > now][:-1]
-        return sum(waiting) >= LONG_QUEUE and sum(waiting[1:]) >= SHORT_QUEUE
+        begun = 0 if self._is_asleep() else 1
+        return self._is_crowded(list(self._moves)[begun:-1])
+
+    def _is_crowded(self, waiting: Sequence[Move]) -> bool:
+        seconds = [move.seconds for move in waiting]
+        return sum(seconds) >= LONG_QUEUE and sum(seconds[1:]) >= SHORT_QUEUE
+
+    def _is_asleep(self) -> bool:
+        """Return whether the first move has begun without anybody looking for room since.
+
+        3.6 sleeps when it has begun a move with a full queue behind it, until it is time to
+        prepare the next or for half a second (RRF 3.6 Move.cpp, MoveLoop; seen in firmware).
+        """
+        first = self._began_crowded
+        if first is None or self._firmware.fills_queue_at_once:
+            return False
+        if not self._moves or self._moves[0] is not first:
+            self._began_crowded = None
+            return False
+        return self._clock.now < first.start + min(LONGEST_SLEEP, first.seconds - AHEAD)
 
     def has_room(self) -> bool:
         """Return whether the queue takes another move, as a condition to wait for."""
@@ -133,48 +133,18 @@ class Motion:
     ) -> None:
         """Append a move to ``target``; ``feed`` in mm/s, or the time it takes."""
         begin = self.target()
-        distance = math.dist(begin, target) or sum(abs(amount) for amount in extruded)
-        if not distance and seconds is None:
+        if seconds is None and list(target) == begin and not any(extruded):
             return
-        speed = self._limited(begin, target, distance, feed)
-        acceleration = self._acceleration(begin, target)
-        if seconds is None:
-            seconds = _seconds(distance, speed, acceleration, self._jerk(begin, target))
         now = self._clock.now
-        start = max(now, self._moves[-1].end if self._moves else now)
-        self._moves.append(
-            Move(start, start + seconds, begin, list(target), extruded, speed, acceleration, origin)
-        )
+        move = Move(begin, list(target), extruded, feed, origin)
+        if seconds is None:
+            append(self._moves, move, drives_of(self.axes, self.extruders), now)
+        else:
+            append_timed(self._moves, move, seconds, now)
         self._target = list(target)
-
-    def _acceleration(self, begin: Sequence[float], target: Sequence[float]) -> float:
-        """Return the lowest acceleration of the axes that move."""
-        moving = [
-            float(axis.get("acceleration") or USUAL_ACCELERATION)
-            for axis, old, new in zip(self.axes, begin, target)
-            if old != new
-        ]
-        return min(moving, default=USUAL_ACCELERATION)
-
-    def _jerk(self, begin: Sequence[float], target: Sequence[float]) -> float:
-        """Return by how much the speed of the axes that move may change at once, in mm/s."""
-        moving = [
-            float(axis.get("jerk") or 0.0) / 60
-            for axis, old, new in zip(self.axes, begin, target)
-            if old != new
-        ]
-        return min(moving, default=0.0)
-
-    def _limited(
-        self, begin: Sequence[float], target: Sequence[float], distance: float, feed: float
-    ) -> float:
-        """Return the feed under the maximum speeds of the axes that move."""
-        speed = max(feed, 0.1)
-        for axis, old, new in zip(self.axes, begin, target):
-            part = abs(new - old)
-            if part:
-                speed = min(speed, float(axis["speed"]) / 60 * distance / part)
-        return speed
+        first = self._moves[0]
+        if first.start > now and self._is_crowded(list(self._moves)[:-1]):
+            self._began_crowded = first
 
     def follow(self, now: float) -> None:
         """Drop the moves that have ended, leaving their end positions in the model."""
@@ -188,7 +158,7 @@ class Motion:
         """Put the positions and the current move into the model."""
         move = self._moves[0] if self._moves else None
         if move is not None:
-            part = min(1.0, max(0.0, (now - move.start) / (move.end - move.start or 1.0)))
+            part = min(1.0, max(0.0, (now - move.start) / (move.seconds or 1.0)))
             self._place([a + (b - a) * part for a, b in zip(move.begin, move.target)])
             self._extrude(move.extruded, part)
         self._show_current(move)
@@ -217,7 +187,7 @@ class Motion:
         current["requestedSpeed"] = current["topSpeed"] = speed
         if "extrusionRate" in current:
             amount = sum(move.extruded) if move else 0.0
-            current["extrusionRate"] = amount / (move.end - move.start) if amount and move else 0.0
+            current["extrusionRate"] = amount / move.seconds if amount and move else 0.0
 
     def _show_user_positions(self) -> None:
         for index, axis in enumerate(self.axes):

@@ -61,4 +61,4 @@ class TemperatureLines:
             self._send()
 
     def _send(self) -> None:
-        self._output.text(self._thermal.report() + "\n")
+        self._output.to_usb(self._thermal.report() + "\n")

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..clock import Clock, Condition
+from ..firmware import Firmware
 from ..hardware.parts import ROOM
 from ..model.tree import ObjectModel
 from ..text.command import BareError, GCodeError
@@ -14,8 +15,6 @@ from .power import Power
 
 CLOSE_ENOUGH = 1.4
 """Distance in °C from the target at which a wait ends (seen in firmware)."""
-REACH, APPROACH = 10.0, 13.3
-"""Degrees behind the target that a heater aims at, and seconds in which it nears them (seen)."""
 HEATING_STATES = ("active", "standby", "tuning")
 FAULT_PWM = 0.0
 STEP = 0.1
@@ -32,11 +31,22 @@ def check_range(heater: dict[str, Any], value: float) -> None:
         raise GCodeError("Requested temperature out of range")
 
 
+class HeatWait:
+    """A condition that heaters have come to their targets."""
+
+    def __init__(self, condition: Condition):
+        self._condition = condition
+
+    def __call__(self) -> bool:
+        return self._condition()
+
+
 class Thermal:
     """Moves ``heat.heaters[].current`` towards what state and targets ask for."""
 
-    def __init__(self, model: ObjectModel, power: Power, clock: Clock):
+    def __init__(self, *, model: ObjectModel, power: Power, clock: Clock, firmware: Firmware):
         self._model = model
+        self._firmware = firmware
         self._power = power
         self._clock = clock
         self.restart()
@@ -47,6 +57,8 @@ class Thermal:
         self._cancelled_waits = 0
         self.standby_tools: dict[int, int] = {}
         """Number of the tool that has put a heater to standby, by the heater's."""
+        self.tuned: dict[int, float] = {}
+        """Temperature at which a heater is tuned."""
 
     @property
     def heaters(self) -> list[dict[str, Any] | None]:
@@ -73,15 +85,15 @@ class Thermal:
 
     def step(self, seconds: float) -> None:
         """Let every heater, sensor and thermostatic fan go on for that long."""
-        for heater in self.heaters:
+        for index, heater in enumerate(self.heaters):
             if heater is not None:
-                self._heat(heater, seconds)
+                self._heat(heater, seconds, self.tuned.get(index, 0.0))
         self._read_sensors()
         for fan in self._model.data.get("fans") or ():
             if fan is not None:
                 self._blow(fan)
 
-    def _heat(self, heater: dict[str, Any], seconds: float) -> None:
+    def _heat(self, heater: dict[str, Any], seconds: float, tuned: float) -> None:
         current = float(heater["current"])
         if not -50.0 < current < 1000.0:
             return  # an open circuit reads 2000 °C or absolute zero and stays there
@@ -89,10 +101,13 @@ class Thermal:
         heating = float(model.get("heatingRate") or 1.0)
         cooling = float(model.get("coolingRate") or 0.3) / 100
         heater_on = heater.get("state") in HEATING_STATES and self._power.is_on
-        target = self.target(heater) if heater_on else 0.0
+        wanted = tuned if heater.get("state") == "tuning" else self.target(heater)
+        target = wanted if heater_on else 0.0
         if current < target:
             full = heating - cooling * (current - ROOM)
-            rate = min(full, (target + REACH - current) / APPROACH)
+            firmware = self._firmware
+            near = (target + firmware.heats_beyond - current) / firmware.heats_within
+            rate = min(full, near)
             new = min(target, current + rate * seconds)
             pwm = round(min(1.0, 1.0 - (full - rate) / heating), 3)
         else:
@@ -181,7 +196,9 @@ class Thermal:
     def awaited(self, indexes: Iterable[int], may_cool: bool = True) -> Condition:
         """Return the condition that the heaters are there, or that M108 has cancelled waiting."""
         waiting, before = list(indexes), self._cancelled_waits
-        return lambda: self.are_at_target(waiting, may_cool) or self._cancelled_waits != before
+        return HeatWait(
+            lambda: self.are_at_target(waiting, may_cool) or self._cancelled_waits != before
+        )
 
     def cancel_waits(self) -> None:
         """End all waits that have begun."""

@@ -94,7 +94,7 @@ class BoxCodes:
             text += "Send M292 to continue or M292 P1 to cancel\n"
         elif CLOSE_MODE < mode < CHOICE_MODE:
             text += "Send M292 to continue\n"
-        self._output.text(text)
+        self._output.to_usb(text)
 
     def _wait_for_answer(self, channel: Channel, seq: int) -> Running:
         channel.awaits_acknowledgement = True

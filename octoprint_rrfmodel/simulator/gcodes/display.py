@@ -9,17 +9,26 @@ from ..interpreter.table import Row, Rows
 from ..line.channel import Channel
 from ..line.outcome import Outcome
 from ..line.output import Output
+from ..line.replies import Replies
 from ..model.tree import ObjectModel
 from ..text.command import Command, GCodeError
+
+TO_ALL, TO_USB, TO_HTTP = 0, 1, 3
+"""``P`` of M118."""
 
 
 class Display:
     """Shows texts, beeps, names the machine and sets its outputs."""
 
-    def __init__(self, model: ObjectModel, clock: Clock, output: Output):
+    def __init__(self, *, model: ObjectModel, clock: Clock, output: Output, replies: Replies):
         self._model = model
         self._clock = clock
         self._output = output
+        self._say_to = {
+            TO_ALL: output.text,
+            TO_USB: output.to_usb,
+            TO_HTTP: replies.writer("HTTP"),
+        }
 
     def rows(self) -> Rows:
         return {
@@ -38,10 +47,11 @@ class Display:
         return None
 
     def _say(self, channel: Channel, command: Command) -> Outcome:
-        """M118: P1 to USB, P0 to all."""
+        """M118: P1 to USB, P3 to the network, P0 to all."""
         text = command.needed_string("S")
-        if command.integer("P", 0) in (0, 1):
-            self._output.text(text + "\n")
+        say = self._say_to.get(command.integer("P", TO_ALL) or TO_ALL)
+        if say is not None:
+            say(text + "\n")
         return None
 
     def _beep(self, channel: Channel, command: Command) -> Outcome:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ..clock import Clock
+from ..device.card import SYSTEM, Card
+from ..device.height_map import DEVIATION, MEAN, grid_of, height_map_text
 from ..device.motion import Motion
 from ..hardware.blank import NO_TAPER
 from ..interpreter.macros import Macros
@@ -14,6 +16,8 @@ from ..text.command import Command, GCodeError
 
 HOMING_SECONDS = 2.32
 """Simulated time to home one axis (seen in firmware: 6.96 s for three)."""
+AGAIN_SECONDS = 1.44
+"""The same for an axis that stands where it was homed to (seen in firmware: 4.32 s for three)."""
 PROBE_SECONDS = 1.62
 """Simulated time to probe one point where the head is (seen in firmware)."""
 TRAVEL_SECONDS = 1.82
@@ -21,16 +25,20 @@ TRAVEL_SECONDS = 1.82
 POINT_SECONDS = 2.002
 """Simulated time from one point of a mesh to the next (seen in firmware: 128 s for 64)."""
 MESH_POINTS = 64
+HEIGHT_MAP = "heightmap.csv"
 
 
 class Homing:
     """Finds out where the axes are."""
 
-    def __init__(self, *, model: ObjectModel, motion: Motion, clock: Clock, macros: Macros):
+    def __init__(
+        self, *, model: ObjectModel, motion: Motion, clock: Clock, macros: Macros, card: Card
+    ):
         self._model = model
         self._motion = motion
         self._clock = clock
         self._macros = macros
+        self._card = card
 
     def rows(self) -> Rows:
         return {
@@ -46,21 +54,26 @@ class Homing:
         axes = self._motion.axes
         indexes = self._motion.named_axes(command.raw) or list(range(len(axes)))
         with self._macros.running(channel):
+            needed = [self._seconds_to_home(index) for index in indexes]
             for index in indexes:
                 axes[index]["homed"] = False
             self._model.bump("move")
-            at_end = self._motion.is_delta
-            started = self._clock.now
-            for done, index in enumerate(indexes, 1):
-                left = started + done * HOMING_SECONDS - self._clock.now
-                yield Silently(self._clock.after(left))
+            end = self._clock.now
+            for index, seconds in zip(indexes, needed):
+                end += seconds
+                yield Silently(self._clock.after(end - self._clock.now))
                 axis = axes[index]
                 axis["homed"] = True
-                self._motion.jump({index: self._homed_position(index, at_end)})
+                self._motion.jump({index: self._homed_position(index)})
                 self._model.bump("move")
 
-    def _homed_position(self, index: int, at_end: bool) -> float:
-        if at_end:
+    def _seconds_to_home(self, index: int) -> float:
+        axis = self._motion.axes[index]
+        is_there = axis["homed"] and axis["machinePosition"] == self._homed_position(index)
+        return AGAIN_SECONDS if is_there else HOMING_SECONDS
+
+    def _homed_position(self, index: int) -> float:
+        if self._motion.is_delta:
             kinematics = self._model.data["move"]["kinematics"]
             return float(kinematics.get("homedHeight") or 0.0) if index == 2 else 0.0
         endstops = self._model.data["sensors"].get("endstops") or []
@@ -77,19 +90,30 @@ class Homing:
             compensation["type"] = "none"
             self._model.bump("move")
             return None
+        path = self._card.path_of(command.string("P") or HEIGHT_MAP, SYSTEM)
         if mode == 1:
-            self._load_mesh()
+            # one that nobody has probed is as if somebody had: a machine in use has one
+            if self._card.name_of(path) is None:
+                self._save_mesh(path)
+            self._load_mesh(path)
             return None
         if mode == 3:
-            return "Height map saved to file 0:/sys/heightmap.csv"
+            self._save_mesh(path)
+            return f"Height map saved to file {path}"
         return self._probe_mesh(channel)
 
-    def _load_mesh(self) -> None:
+    def _save_mesh(self, path: str) -> None:
+        grid = grid_of(self._model.data["move"]["compensation"].get("probeGrid") or {})
+        if grid is not None:
+            moment = self._clock.date_time()
+            self._card.write(path, height_map_text(grid, moment), moment)
+
+    def _load_mesh(self, path: str) -> None:
         compensation = self._model.data["move"]["compensation"]
         compensation.update(
-            file="0:/sys/heightmap.csv",
+            file=path,
             type="mesh",
-            meshDeviation={"deviation": 0.043, "mean": -0.012},
+            meshDeviation={"deviation": DEVIATION, "mean": MEAN},
         )
         if "liveGrid" in compensation:
             compensation["liveGrid"] = dict(compensation["probeGrid"])
@@ -103,10 +127,12 @@ class Homing:
         yield self._motion.has_stopped
         with self._macros.running(channel):
             yield Silently(self._clock.after(MESH_POINTS * POINT_SECONDS))
-        self._load_mesh()
+        path = self._card.path_of(HEIGHT_MAP, SYSTEM)
+        self._save_mesh(path)
+        self._load_mesh(path)
         return (
             f"{MESH_POINTS} points probed, min error -0.098, max error 0.104, mean -0.012, "
-            "deviation 0.043\nHeight map saved to file 0:/sys/heightmap.csv"
+            f"deviation 0.043\nHeight map saved to file {path}"
         )
 
     def _probe_point(self, channel: Channel, command: Command) -> Running:

@@ -52,7 +52,9 @@ class MetaCommands:
             # the list of echo is read with a brace in front of it
             before = command.column + len(word) + (1 if word == "echo" else 2)
             column = None if error.at is None else before + error.at
-            raise SyntaxProblem(f"meta command: {error}", column, error.names_line) from None
+            raise SyntaxProblem(
+                f"meta command: {error}", column, error.names_line, told=error.told
+            ) from None
 
     def _echo(self, channel: Channel, text: str) -> Outcome:
         values = expression.arguments(text, self._decoder.lookup(channel))

@@ -82,7 +82,8 @@ class Moves:
             letter = axis["letter"]
             if letter in words:
                 value = words[letter] * scale
-                target[index] = begin[index] + value if relative else value + motion.offset(index)
+                from_ = begin[index] if relative else self._zero(index, words)
+                target[index] = from_ + value
                 involved.append(index)
         if involved and not code:
             self._check_homed(involved)
@@ -94,8 +95,20 @@ class Moves:
         if command.number == 0 and self._model.is_cnc and "F" not in words:
             speed = max(float(axis["speed"]) / 60 for axis in motion.axes)
         extrusion = self._extrusion(channel, command, words, scale, bool(involved))
+        is_printed = channel.name == "File" and any(amount > 0 for amount in extrusion)
+        if is_printed and involved:
+            self._job.objects.printed(begin, target)
         origin = self._job.line_number - 1 if channel.name == "File" else None
         motion.queue(target, extrusion, speed, origin=origin)
+
+    def _zero(self, index: int, words: dict[str, float]) -> float:
+        """Return where coordinates count from: the workplace, or with R a restore point."""
+        offset = self._motion.offset(index)
+        points = self._model.data["state"].get("restorePoints") or []
+        point = int(words.get("R", -1))
+        if not 0 <= point < len(points):
+            return offset
+        return float(points[point]["coords"][index]) + offset
 
     def _check_homed(self, involved: Sequence[int]) -> None:
         move = self._model.data["move"]

@@ -72,14 +72,17 @@ class Interpreter:
         """Run an M292 past the box that this channel waits for; return whether there was one."""
         if not channel.awaits_acknowledgement or not channel.lines:
             return False
-        if not channel.lines[0].lstrip().upper().startswith("M292"):
+        line = parse_line(channel.lines[0], self._firmware.has_crc, channel.requires_checksum)
+        if line is None or not line.text.lstrip().upper().startswith("M292"):
             return False
-        (command,) = self._decoder.commands(channel, channel.lines.popleft())
+        channel.lines.popleft()
+        (command,) = self._decoder.commands(channel, line.text)
         try:
             reply = as_reply(self._gcodes.execute(channel, command))
         except (GCodeError, SyntaxProblem) as error:
             reply = Reply(f"Error: {command.name}: {error}")
-        channel.write(framed(reply, channel.input["compatibility"], True, False))
+        # the macro's end is acknowledged, not what is sent meanwhile
+        channel.write(framed(reply, channel.input["compatibility"], True, channel.is_in_macro))
         return True
 
     def _runs_meanwhile(self, channel: Channel) -> bool:
@@ -133,7 +136,7 @@ class Interpreter:
         if problem.column is None or not self._firmware.error_column:
             return f"Error: {problem.text}"
         where = f"line {channel.line_count}" if problem.names_line else "at"
-        return f"Error:  {where} column {problem.column}: {problem.text}"
+        return f"Error: {problem.told} {where} column {problem.column}: {problem.text}"
 
     def _execute(self, channel: Channel, command: Command) -> None:
         channel.current = command

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from typing import Callable, NamedTuple, Protocol
 
 from ..device.activity import Activity
-from ..firmware import Firmware
+from ..firmware import Firmware, Release, is_within
 from ..line.channel import Channel
 from ..line.outcome import Outcome
 from ..text.command import Command, GCodeError
 from ..text.serial_line import NO_REPLY
 
 Function = Callable[[Channel, Command], Outcome]
-Release = tuple[int, ...]
 
 
 class Row(NamedTuple):
@@ -26,9 +25,7 @@ class Row(NamedTuple):
     """First release that knows it no longer."""
 
     def is_known_to(self, release: Release) -> bool:
-        if self.since is not None and release < self.since:
-            return False
-        return self.until is None or release < self.until
+        return is_within(release, self.since, self.until)
 
 
 Rows = Mapping[str, Row]

@@ -1,8 +1,8 @@
-"""Commands on USB that are acted on before they get into its queue.
+"""Commands that are acted on before they get into their channel's queue.
 
-3.6.3 and later look at what comes in on USB as they do at HTTP's input: M112, M108 and a bare M122
-don't wait for the command that runs, as long as the input has room (release notes of 3.6.3; the
-rules of that scanner are those seen in the firmware's HTTP input).
+At HTTP's input every version looks for M112 and a bare M122, 3.6.3 and later for M108 too, and at
+USB as well: they don't wait for the command that runs, as long as the input has room (release notes
+of 3.6.3; the rules of that scanner are those seen in the firmware's HTTP input).
 """
 
 from __future__ import annotations
@@ -23,13 +23,22 @@ HIDING = ("M", "M1", "M11", "M12")
 
 
 class Urgent:
-    """Acts on urgent lines; those that empty the input have no ``ok``."""
+    """Acts on urgent lines of one channel; those that empty the input have no ``ok``."""
 
-    def __init__(self, *, gcodes: GCodes, decoder: Decoder, emergency: Emergency, usb: Channel):
+    def __init__(
+        self,
+        *,
+        gcodes: GCodes,
+        decoder: Decoder,
+        emergency: Emergency,
+        channel: Channel,
+        cancels_waits: bool = True,
+    ):
         self._gcodes = gcodes
         self._decoder = decoder
         self._emergency = emergency
-        self._usb = usb
+        self._channel = channel
+        self._cancels_waits = cancels_waits
         self._line_before = ""
 
     def takes(self, line: str, has_room: bool) -> bool:
@@ -38,20 +47,20 @@ class Urgent:
         if not has_room or before.upper() in HIDING:
             return False
         if _STOP.match(line):
-            self._usb.abandon()
+            self._channel.abandon()
             self._emergency.stop()
             return True
         if _DIAGNOSTICS.match(line):
-            self._usb.lines.clear()
+            self._channel.lines.clear()
             self._run(line)
             return True
-        if _CANCEL_WAIT.match(line):
+        if self._cancels_waits and _CANCEL_WAIT.match(line):
             # nothing of the input is deleted, so it is also run in its turn
             self._run(line)
         return False
 
     def _run(self, line: str) -> None:
-        for command in self._decoder.commands(self._usb, line):
-            reply = as_reply(self._gcodes.execute(self._usb, command))
+        for command in self._decoder.commands(self._channel, line):
+            reply = as_reply(self._gcodes.execute(self._channel, command))
             if reply.text:
-                self._usb.write(reply.text + "\n")
+                self._channel.write(reply.text + "\n")

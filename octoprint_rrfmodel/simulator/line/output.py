@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from typing import Callable
 
 from ..clock import Clock
 from ..text.letters import utf8
@@ -23,6 +24,10 @@ class Output:
         self._ready = bytearray()
         self._ready_since = 0.0
         self._line_free_at = 0.0
+        self.said = 0
+        """Bytes since the beginning."""
+        self.listeners: list[Callable[[str], None]] = []
+        """Told of what goes to everybody: the network, which is there whether USB is or not."""
 
     def reply(self, text: str) -> None:
         """Queue a reply with its framing; the faults get their hands on it."""
@@ -30,6 +35,12 @@ class Output:
         self._append(self._clock.now + self._faults.number("slow"), data)
 
     def text(self, text: str) -> None:
+        """Send text to everybody."""
+        self.to_usb(text)
+        for listener in self.listeners:
+            listener(text)
+
+    def to_usb(self, text: str) -> None:
         """Queue text that nobody asked for."""
         self._append(self._clock.now, utf8(text))
 
@@ -68,6 +79,7 @@ class Output:
         if not self._ready:
             self._ready_since = since
         self._ready += data
+        self.said += len(data)
 
     def discard(self) -> None:
         """Forget what the host hasn't fetched."""

@@ -14,12 +14,17 @@ class Replies:
     def __init__(self, model: ObjectModel):
         self._model = model
         self._texts: dict[str, list[str]] = {}
+        self.takers: dict[str, Callable[[str], bool]] = {}
+        """Channel → who is given its replies, and says whether anybody wants them."""
 
     def writer(self, name: str) -> Callable[[str], None]:
         """Return the function that keeps the replies of that channel."""
         return partial(self._keep, name)
 
     def _keep(self, name: str, text: str) -> None:
+        taker = self.takers.get(name)
+        if taker is not None and taker(text):
+            return
         self._texts.setdefault(name, []).append(text)
         if name == "HTTP":
             self._model.bump("reply")

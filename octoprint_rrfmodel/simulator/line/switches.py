@@ -12,8 +12,9 @@ from ..faults import FAULTS, ON_REPLY, OnReply, parse_fault
 from ..model.om import OUT_OF_BUFFERS
 
 NESTING = 20000
-_READING = re.compile(r'("(?:current|heaters)":\[?)-?\d+(?:\.\d+)?')
-"""The first temperature of a reply; the group is what stands in front of it."""
+_READING = re.compile(r'("(?:current|heaters)":\[?)-?\d+\.\d+')
+"""The first temperature of a reply; the group is what stands in front of it. Without decimals these
+are motors' currents and numbers of heaters, which no firmware has as a ``nan``."""
 
 
 def _is_json(data: bytes) -> bool:

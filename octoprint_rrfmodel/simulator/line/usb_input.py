@@ -16,6 +16,8 @@ class Received(NamedTuple):
 
     time: float
     text: str
+    said: int = 0
+    """Bytes that the board had said by then."""
 
 
 class UsbInput:
@@ -24,6 +26,8 @@ class UsbInput:
     def __init__(self, clock: Clock, channel: Channel):
         self.takes: Callable[[str, bool], bool] | None = None
         """Called with a line and whether the input has room, says whether it is done with."""
+        self.said: Callable[[], int] = int
+        """Returns the bytes that the board has said."""
         self._clock = clock
         self._channel = channel
         self._bytes = bytearray()
@@ -48,7 +52,7 @@ class UsbInput:
         for line in lines:
             if line:
                 text = line.decode("utf-8", "surrogateescape")
-                self.log.append(Received(self._clock.now, text))
+                self.log.append(Received(self._clock.now, text, self.said()))
                 if self.takes is not None and self.takes(text, self.has_room):
                     continue
                 self._channel.lines.append(text)

@@ -9,9 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..firmware import Firmware
-
-Release = tuple[int, ...]
+from ..firmware import Firmware, Release, is_within
 
 SINCE_34: Release = (3, 4)
 SINCE_35: Release = (3, 5)
@@ -96,9 +94,7 @@ MEMBERS = _table()
 def exists(path: str, firmware: Firmware) -> bool:
     """Return whether that firmware has the member; unlisted ones always exist."""
     since, until = MEMBERS.get(path, (None, None))
-    if since is not None and firmware.release < since:
-        return False
-    return until is None or firmware.release < until
+    return is_within(firmware.release, since, until)
 
 
 def for_firmware(value: Any, firmware: Firmware, path: str = "") -> Any:

@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from octoprint_rrfmodel.rrf.m409 import answer
+from octoprint_rrfmodel.rrf.model.m409 import prepared
 from octoprint_rrfmodel.rrf.model.marks import MARKS
 
 from ..firmware import Firmware
@@ -180,7 +181,7 @@ class ModelText:
 
     def __init__(self, firmware: Firmware, buffers: int, marks: Mapping[str, Any] | None = None):
         self._firmware = firmware
-        self._marks = _marks_of(firmware) if marks is None else marks
+        self._marks = prepared(_marks_of(firmware) if marks is None else marks)
         self.decimals = decimals_of(firmware.release)
         self.most_bytes = buffers * BUFFER_SIZE
         """What fits in all output buffers together."""

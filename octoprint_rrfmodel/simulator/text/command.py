@@ -55,10 +55,14 @@ class UnansweredError(GCodeError):
 class SyntaxProblem(Exception):
     """A command that can't be read; ``column`` counts from 1 where it is known."""
 
-    def __init__(self, text: str, column: int | None = None, names_line: bool = False):
+    def __init__(
+        self, text: str, column: int | None = None, names_line: bool = False, *, told: str = ""
+    ):
         super().__init__(text)
         self.text = text
         self.column = column
+        self.told = told
+        """What the command has answered before it came to the problem."""
         self.names_line = names_line
         """Whether the message names the channel's line besides the column."""
 

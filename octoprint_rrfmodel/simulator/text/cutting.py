@@ -105,7 +105,8 @@ def _wrapped(number: int) -> int:
 
 def bad_command(text: str) -> str:
     """Return what RRF says of text that is no command."""
-    shown = CONTROL.sub(lambda match: f"[0x{ord(match[0]):02x}]", text.strip())
+    # an apostrophe is about the letter behind it, and goes where there is none (seen in firmware)
+    shown = CONTROL.sub(lambda match: f"[0x{ord(match[0]):02x}]", text.strip()).rstrip("'")
     return f"Bad command: {shown}"
 
 

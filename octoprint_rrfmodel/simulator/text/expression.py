@@ -13,7 +13,7 @@ __all__ = ["BadExpression", "arguments", "evaluate", "text_of"]
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)|(?P<text>"(?:[^"]|"")*")"""
     r"""|(?P<name>\#?[A-Za-z_][\w]*(?:\.[A-Za-z_]\w*|\[[^\[\]]*\])*)"""
-    r"""|(?P<sign>==|!=|<=|>=|&&|\|\||[-+*/^<>=!(){},&|?:]))"""
+    r"""|(?P<sign>==|!=|<=|>=|&&|\|\||[-+*/^<>=!(){},&|?:%]))"""
 )
 """One token; the group that matched is its kind."""
 
@@ -49,8 +49,12 @@ _BINARY = (
 class BadExpression(ValueError):
     """An expression that can't be read or evaluated; the text is what RRF says."""
 
-    def __init__(self, text: str, at: int | None = None, names_line: bool = False):
+    def __init__(
+        self, text: str, at: int | None = None, names_line: bool = False, *, told: str = ""
+    ):
         super().__init__(text)
+        self.told = told
+        """The values of a list in front of it, as echo tells them."""
         self.at = at
         """Offset in the expression, where it is known."""
         self.names_line = names_line
@@ -180,6 +184,19 @@ class _Parser:
         except BadExpression:
             return False
 
+    def listed(self) -> list[Any]:
+        """Return the values of a whole list in braces."""
+        self._take("{")
+        values = [self.ternary()]
+        while self._peek() == ",":
+            self._take()
+            if self._peek() != "}":
+                values.append(self.ternary())
+        if self._peek() != "}":
+            told = " ".join(text_of(value) for value in values)
+            raise BadExpression("expected ','", self._where(), told=told)
+        return values
+
     def braces(self) -> Any:
         """Return the value in braces; with commas an array."""
         values = [self.ternary()]
@@ -203,4 +220,7 @@ def evaluate(text: str, lookup: Callable[[str], Any]) -> Any:
 
 def arguments(text: str, lookup: Callable[[str], Any]) -> list[Any]:
     """Return the values of a comma-separated list, as ``echo`` takes them."""
-    return list(evaluate("{" + text + ",}", lookup))
+    try:
+        return _Parser("{" + text + ",}", lookup).listed()
+    except (TypeError, RecursionError):
+        raise BadExpression("expected an expression") from None

@@ -29,7 +29,11 @@ class OldStatus:
         kind = command.integer("S", 0) or 0
         if kind == 0:
             channel.status_request = "M408"
-        self._live.refresh()
-        text = text_of(self._values(), kind)
+        text = self.text(kind)
         # S0 and S1 bring a line break of their own on top (RRF 3.5 RepRap.cpp:1854)
         return Reply(text + ("\n\n" if kind in (0, 1) else "\n"), Kind.LONG)
+
+    def text(self, kind: int) -> str:
+        """Return the JSON text of that type."""
+        self._live.refresh()
+        return text_of(self._values(), kind)

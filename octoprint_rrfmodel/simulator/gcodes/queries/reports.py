@@ -47,17 +47,22 @@ class Reports:
         return Reply(self._thermal.report(), Kind.TEMPERATURES)
 
     def _position(self, channel: Channel, command: Command) -> Outcome:
-        """M114 (RRF 3.5 GCodes.cpp:3332)."""
+        """M114: where the queue ends, and the steps of this moment (RRF 3.5 GCodes.cpp:3332)."""
         self._live.refresh()
-        axes = [axis for axis in self._motion.axes if axis.get("visible", True)]
-        user = " ".join(f"{axis['letter']}:{axis['userPosition']:.3f}" for axis in axes)
+        motion = self._motion
+        axes = [axis for axis in motion.axes if axis.get("visible", True)]
+        ends = {
+            axis["letter"]: (end, end - motion.offset(index))
+            for index, (axis, end) in enumerate(zip(motion.axes, motion.target()))
+        }
+        user = " ".join(f"{axis['letter']}:{ends[axis['letter']][1]:.3f}" for axis in axes)
         drives = " ".join(
             f"E{index}:{extruder['position']:.1f}"
-            for index, extruder in enumerate(self._motion.extruders)
+            for index, extruder in enumerate(motion.extruders)
         )
         counts = " ".join(str(round(axis["machinePosition"] * axis["stepsPerMm"])) for axis in axes)
-        machine = " ".join(f"{axis['machinePosition']:.3f}" for axis in axes)
-        extrusion = f"E:{self._motion.virtual_e:.3f} {drives}".rstrip()
+        machine = " ".join(f"{ends[axis['letter']][0]:.3f}" for axis in axes)
+        extrusion = f"E:{motion.virtual_e:.3f} {drives}".rstrip()
         return f"{user} {extrusion} Count {counts} Machine {machine} Bed comp 0.000"
 
     def _endstops(self, channel: Channel, command: Command) -> Outcome:

@@ -18,6 +18,9 @@ from ...text.serial_line import Kind, Reply
 WITHOUT_PID = (3, 7)
 """M301 and M304 are gone (release notes of 3.7.0)."""
 
+WATCHED = {0: "tooHigh", 1: "tooLow"}
+"""Condition of a heater's monitor by its number."""
+
 
 class Settings:
     """Tells what ``config.g`` has set; the texts are those of RRF 3.5 (seen in firmware)."""
@@ -48,7 +51,6 @@ class Settings:
             "M260": Row(self._no_i2c),
             "M261": Row(self._no_i2c),
             "M301": Row(self._pid, until=WITHOUT_PID),
-            "M303": Row(self._tuning),
             "M304": Row(self._pid, until=WITHOUT_PID),
             "M305": Row(_replaced),
             "M307": Row(self._heater_model),
@@ -57,7 +59,6 @@ class Settings:
             "M376": Row(self._taper),
             "M404": Row(self._filament_width),
             "M407": Row(self._filament_width),
-            "M500": Row(_not_saved),
             "M503": Row(self._configuration),
             "M505": Row(self._system_folder),
         }
@@ -72,10 +73,14 @@ class Settings:
         return heater
 
     def _monitors(self, channel: Channel, command: Command) -> Outcome:
-        """M143."""
+        """M143: of monitor P, S the limit, A what happens, C when."""
         number = command.integer("H", 1)
+        monitors = self._heater(command, "H", 1)["monitors"]
+        if command.raw.keys() - {"H"}:
+            self._set_monitor(monitors, command)
+            return None
         lines = []
-        for index, monitor in enumerate(self._heater(command, "H", 1)["monitors"]):
+        for index, monitor in enumerate(monitors):
             if monitor["limit"] is None:
                 lines.append(f"Heater {number} monitor {index} is disabled")
             else:
@@ -84,7 +89,20 @@ class Settings:
                     "generate a heater fault if the reading exceeds "
                     f"{monitor['limit']:.1f}°C"
                 )
-        return "\n".join(lines) if command.raw.keys() <= {"H"} else None
+        return "\n".join(lines)
+
+    def _set_monitor(self, monitors: list[dict[str, Any]], command: Command) -> None:
+        place = command.integer("P", 0) or 0
+        if not 0 <= place < len(monitors):
+            raise GCodeError(f"Invalid monitor number '{place}'")
+        condition = WATCHED.get(command.integer("C", 0) or 0, "disabled")
+        is_off = condition == "disabled"
+        monitors[place].update(
+            action=None if is_off else command.integer("A", 0),
+            condition=condition,
+            limit=None if is_off else command.number_of("S", monitors[place]["limit"]),
+        )
+        self._model.bump("heat")
 
     def _led_colour(self, channel: Channel, command: Command) -> Outcome:
         """M150: a board without a strip doesn't know it."""
@@ -150,14 +168,6 @@ class Settings:
             return None
         return f"Heater {number} uses model-derived PID parameters. Use M307 H{number} to view them"
 
-    def _tuning(self, channel: Channel, command: Command) -> Outcome:
-        """M303: nothing is tuned."""
-        if not command.raw:
-            return "No heater has been tuned since startup"
-        if "H" in command:
-            self._heater(command, "H", None)
-        return None
-
     def _heater_model(self, channel: Channel, command: Command) -> Outcome:
         """M307."""
         heater = self._heater(command, "H", None)
@@ -165,7 +175,8 @@ class Settings:
             return None
         model = heater["model"]
         rate = model.get("coolingRate") or 0.0
-        rise = 100 * model["heatingRate"] / rate if rate else 0.0
+        exponent = model.get("coolingExp") or 1.0
+        rise = 100 * (model["heatingRate"] / rate) ** (1 / exponent) if rate else 0.0
         return (
             f"Heater {command.integer('H')}: heating rate {model['heatingRate']:.3f}, "
             f"cooling rate {rate:.3f}, dead time {model['deadTime']:.2f}, "
@@ -243,10 +254,6 @@ def _exponential(value: float) -> str:
 
 def _replaced(channel: Channel, command: Command) -> Outcome:
     raise GCodeError("M305 has been replaced by M308 and M950")
-
-
-def _not_saved(channel: Channel, command: Command) -> Outcome:
-    return Reply("Warning: M500: No M501 command was executed in config.g")
 
 
 def _nothing(channel: Channel, command: Command) -> Outcome:

@@ -1,0 +1,1 @@
+"""A board behind a single-board computer: what Duet Software Framework (DSF) serves."""
