@@ -148,6 +148,7 @@ class _Walk:
     def __init__(self) -> None:
         self.request = ListRequest(ROOT)
         self.files: list[CardFile] = []
+        self.folders: list[str] = []
         self._folders: list[tuple[str, int]] = []
         self._seen = 1
         self._depth = 0
@@ -165,6 +166,7 @@ class _Walk:
             # a comment begins at a semicolon wherever a host looks at the line first
             elif self._depth < DEEPEST and self._seen < MOST_FOLDERS and ";" not in path:
                 self._seen += 1
+                self.folders.append(path)
                 self._folders.append((path, self._depth + 1))
         if len(self.files) >= MOST_FILES:
             del self.files[MOST_FILES:]
@@ -190,6 +192,8 @@ class CardPlan:
         """Begin anew: another connection, perhaps another board."""
         self.index: CardIndex | None = None
         """What is on the card; ``None`` before the first list, and where none can be had."""
+        self.folders: tuple[str, ...] = ()
+        """The folders of that list, each with its whole path."""
         self.aliases = Aliases()
         self._walk: _Walk | None = None
         self._counter: Any = (None, None)
@@ -237,6 +241,7 @@ class CardPlan:
         self._failures = 0
         if walk.take(page):
             self._walk = None
+            self.folders = tuple(walk.folders)
             self.index = self.aliases.index(walk.files)
         return True
 

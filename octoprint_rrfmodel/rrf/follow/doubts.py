@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..views.warnings import RESET, MachineWarning, faults
+from ..views.warnings import RESET, faults
 
 MOST_DOUBTS = 3
 """Replies in a row that are doubted; if each tells something else it is the machine after all."""
@@ -23,12 +23,18 @@ one before it."""
 
 NEAR_SECONDS = 3.0
 
+Alarm = tuple[str, tuple[int, ...]]
+"""Code and last number of a fault. The number before it, a board's, is its place until the key that
+has its address is known: the same fault would be a new one with each answer about that key."""
+
+RESET_ALARM: Alarm = (RESET.code, ())
+
 
 class Doubts:
     """Looks at each model before it counts, beside the one that does."""
 
     def __init__(self) -> None:
-        self._alarms: frozenset[MachineWarning] = frozenset()
+        self._alarms: frozenset[Alarm] = frozenset()
         self._in_a_row = 0
         self._told = 0
         self._before: float | None = None
@@ -40,9 +46,9 @@ class Doubts:
 
     def is_doubtful(self, old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
         """Return whether a model tells of something bad for the first time: ask again."""
-        alarms = frozenset(faults(new)) - frozenset(faults(old))
+        alarms = _alarms(new) - _alarms(old)
         if self._goes_back(new):
-            alarms |= {RESET}
+            alarms |= {RESET_ALARM}
         is_new = not alarms <= self._alarms
         if is_new and not self._told and self._in_a_row < MOST_DOUBTS:
             self._alarms = alarms
@@ -78,6 +84,10 @@ class Doubts:
             return False
         leaps = self._last - self._before > LEAP_SECONDS
         return now >= self._before - (NEAR_SECONDS if leaps else 0.0)
+
+
+def _alarms(model: Mapping[str, Any]) -> frozenset[Alarm]:
+    return frozenset((fault.code, fault.numbers[-1:]) for fault in faults(model))
 
 
 def _up_time(model: Mapping[str, Any]) -> float | None:

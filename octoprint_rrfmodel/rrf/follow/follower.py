@@ -8,18 +8,21 @@ Belongs to one thread; ``store.model`` may be read by any.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..model.merge import NestedTooDeep
 from ..model.store import ModelStore
 from ..wire.live_reader import LiveReader
 from ..wire.reply import MalformedReply, ModelReply, NoBuffers, StatusReply, decode, foreign_strings
 from ..wire.report import entries
-from ..wire.request import LIVE_FLAGS, ModelRequest, Request
+from ..wire.request import KEY_FLAGS, LIVE_FLAGS, ModelRequest, Request
 from .doubts import Doubts
-from .poll import ModelPlan, Update
+from .live import LIVE_KEYS
+from .poll import ModelPlan
 from .poll408 import StatusPlan
 from .reported import members_of, patch_of
+from .rows import Rows
+from .update import Taken, Update, Warmed
 
 LIVE_ROOT = ModelRequest("", LIVE_FLAGS)
 
@@ -27,30 +30,14 @@ NOT_SUPPORTED_AFTER = 3
 """Times that ``M409`` may stay without any answer before ``M408`` is tried."""
 
 
-class Taken(NamedTuple):
-    """What a reply did."""
-
-    changes: dict[str, Any]
-    """What changed, by top-level key; see ``merge.Changes``."""
-    reset: bool
-    """Whether it showed that the board had been reset; the model then begins anew."""
-    is_doubted: bool = False
-    """Whether it tells of something bad for the first time: it doesn't count, ask again at once."""
-
-
-class Warmed(NamedTuple):
-    """What a report of temperatures did; all else of the model is as old as before."""
-
-    changes: dict[str, Any]
-    """As in ``Taken``."""
-    heaters: frozenset[int]
-    """Indices of those that it told of."""
-
-
 class Follower:
-    """Keeps the model of one board fresh, whatever the board answers to."""
+    """Keeps the model of one board fresh, whatever the board answers to.
 
-    def __init__(self) -> None:
+    ``rows`` are the parts by which it does so on a line whose time is dear.
+    """
+
+    def __init__(self, rows: Rows | None = None) -> None:
+        self.rows = rows or Rows(lambda: 0.0)
         self.store = ModelStore()
         self.protocol: str | None = None
         """``M409`` or ``M408`` once one of them was answered."""
@@ -61,9 +48,10 @@ class Follower:
         self._start()
 
     def _start(self) -> None:
-        self._plan: ModelPlan | StatusPlan = ModelPlan()
+        self._plan: ModelPlan | StatusPlan = ModelPlan(self.rows)
         self._reader = LiveReader()
         self._doubts = Doubts()
+        self._is_root = False
         self._unanswered = 0
         self._unconfirmed: dict[Request, tuple[str, ...]] = {}
 
@@ -89,8 +77,12 @@ class Follower:
 
     @property
     def live_keys(self) -> tuple[str, ...]:
-        """The keys by which live values come one by one, none where they come as a whole."""
-        return self._plan.live_keys
+        """The keys by which live values come one by one, none where they come as a whole.
+
+        Where parts come as they are needed it is those that the guard needs: by them the model's
+        age is told.
+        """
+        return self.rows.guarded if self.is_sparing else self._plan.live_keys
 
     @property
     def short_of_buffers(self) -> int:
@@ -107,6 +99,9 @@ class Follower:
         Raises ``MalformedReply`` for one that can't be read: what was asked for stays wanted.
         """
         request = self._plan.next_request()
+        self._is_root = request == LIVE_ROOT
+        if self.is_sparing and isinstance(request, ModelRequest):
+            self.rows.spent(len(text), request)
         try:
             reply = self._decode(text, request)
             if isinstance(reply, NoBuffers):
@@ -139,14 +134,14 @@ class Follower:
     def _taken(self, updates: list[Update], model: Mapping[str, Any], changes: Any) -> Taken:
         """Take a model that a reply has led to, unless it is doubtful."""
         is_doubted = self._doubts.is_doubtful(self.store.model, model) if updates else False
-        if is_doubted or any(update.path for update in updates):
+        if is_doubted or (updates and not self._is_root):
             # the last live reply isn't what the model has
             self._reader.forget()
         if is_doubted:
             self._plan.again(updates)
             return Taken({}, False, True)
         self.store.keep(model)
-        if self._doubts.is_reset(model):
+        if self._tells_time(updates) and self._doubts.is_reset(model):
             self.resets += 1
             self._plan.restart()
             self.store.forget()
@@ -155,9 +150,44 @@ class Follower:
         self._plan.observe(model)
         return Taken(changes, False)
 
+    def _tells_time(self, updates: list[Update]) -> bool:
+        """Return whether the model's up-time is news: a small part says nothing of it."""
+        if not self.is_sparing:
+            return True
+        return any("state" in (path or value) for path, value in updates)
+
     def told(self) -> None:
         """Note that the firmware has said by itself that something is wrong: believe it at once."""
         self._doubts.told()
+
+    def spare(self, bytes_a_second: float, share: float, is_free: bool = False) -> None:
+        """Follow by small parts that take that share of a line; with 0 by whole answers.
+
+        ``is_free`` where nobody waits for the line, and a long answer now and then does no harm.
+        """
+        if isinstance(self._plan, ModelPlan):
+            self._plan.spare(bytes_a_second, share, is_free)
+
+    @property
+    def is_sparing(self) -> bool:
+        """Whether the model is followed by small parts."""
+        return isinstance(self._plan, ModelPlan) and self._plan.is_sparing
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """Keys that are known to have changed, and wait to be fetched."""
+        return self._plan.wanted
+
+    @property
+    def live_roots(self) -> frozenset[str]:
+        """Top-level keys with members that change all the time."""
+        is_old = isinstance(self._plan, StatusPlan)
+        return frozenset(self.store.model if is_old else LIVE_KEYS)
+
+    @property
+    def live_parts(self) -> tuple[str, ...]:
+        """All parts by which live values come, none where they come as a whole."""
+        return self.rows.paths if self.is_sparing else self._plan.live_keys
 
     def warm(self, line: str) -> Warmed | None:
         """Put a report of temperatures into the model; ``None`` where it tells nothing."""
@@ -169,13 +199,23 @@ class Follower:
         self._reader.forget()
         return Warmed(self.store.patch(patch_of(members, model)), frozenset(members))
 
+    def show_box(self, box: dict[str, Any] | None) -> Taken:
+        """Put a box into the model that only text has told of, ``None`` for one that is gone."""
+        # the next live reply is compared with what stands in the model now
+        self._reader.forget()
+        if box is None:
+            # there may be another one by now
+            self._plan.refetch("state")
+        return Taken(self.store.replace("state.messageBox", box), False)
+
     def _confirm(self, request: Request, strings: tuple[str, ...]) -> None:
         """Ask for a key again until its letters beyond ASCII come twice the same.
 
         Lines have no checksum here, and a broken byte in a name is still a name: what is read
         once may be wrong for good, since nothing but a change makes the key be asked for again.
         """
-        if not isinstance(request, ModelRequest) or not request.key:
+        # live values are asked for again anyway
+        if not isinstance(request, ModelRequest) or request.flags != KEY_FLAGS:
             return
         if not strings or self._unconfirmed.get(request) == strings:
             self._unconfirmed.pop(request, None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from typing import Any
 
 from ..wire.reply import ModelReply
@@ -26,8 +26,27 @@ LIVE_KEYS = (
 )
 """Top-level keys with live members, the most wanted first."""
 
+FIRST = ("state", "boards", "heat", "tools", "move", "job", "fans", "sensors", "inputs")
+"""Fetched before the others, so that a page has something to show early."""
+
 MOST_ROUNDS = 16
 """Rounds of parts after which the whole is tried again, where that has failed again and again."""
+
+
+def keys_of(outline: Any) -> list[str]:
+    """Return the keys that an outline names, the most wanted first; where it names none the usual
+    ones."""
+    names = [name for name in outline if name != SEQS] if isinstance(outline, dict) else []
+    if not names:
+        return [key for key in LIVE_KEYS if key != SEQS]
+    return [*(name for name in FIRST if name in names), *(n for n in names if n not in FIRST)]
+
+
+def counter_of(key: str, counters: Mapping[str, Any]) -> Any:
+    """Return what tells whether a key changed; files on a card count by themselves."""
+    if key == "volumes":
+        return counters.get(key), counters.get("volChanges")
+    return counters.get(key)
 
 
 class LiveRound:

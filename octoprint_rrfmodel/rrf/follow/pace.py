@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-IDLE_SECONDS = 1.0
+from collections import deque
+
+IDLE_SECONDS = 1.15
+"""Between polls of a host that prints nothing: with a status request each, half of the bytes that
+PanelDue asks for (``d99fp`` every 500 ms)."""
+
 PRINTING_SECONDS = 2.0
 """Shortest time between two polls while a host streams a print: they come before its lines."""
 
@@ -26,6 +31,28 @@ OVERHEAD_BYTES = 120
 
 BITS_A_BYTE = 10
 
+SLOW_BITS = 1_000_000
+"""Rate below which a line's time is dear; of a USB line the rate that is set says nothing."""
+
+TELLING_BYTES = 250
+"""Length from which on a reply tells how fast the line is."""
+
+FASTER = 1.25
+"""Factor above the line's rate from which on its replies tell that it is none: it is USB.
+
+It is taken for a slow line again when they come no faster than its rate, which on a UART they
+never do, and on USB only from a board that has something else to do.
+"""
+
+SPARING_SHARE = 0.028
+"""Part of a slow line's time that polling may take beside a print; 3 % is what it may be."""
+
+LOOKED_AT = 12
+"""Long replies that are taken together: one that seems to have come fast is a clock held up."""
+
+TELLING_TOTAL = 3000
+"""Bytes that they have together at least before they tell anything."""
+
 
 class Pace:
     """Measures polls and spaces them. Times are in seconds."""
@@ -35,10 +62,14 @@ class Pace:
         self._goes_on = False
         self._failures = 0
         self._baudrate = 0
+        self._replies: deque[tuple[int, float]] = deque(maxlen=LOOKED_AT)
+        self._is_fast = False
 
     def connected(self, baudrate: int) -> None:
         """Begin anew; ``baudrate`` is 0 where none is known. On USB it means nothing."""
         self._baudrate = baudrate
+        self._replies.clear()
+        self._is_fast = False
         self._cost = 0.0
         self._goes_on = False
         self._failures = 0
@@ -51,12 +82,36 @@ class Pace:
         and a board may think longer than it talks.
         """
         self._failures = 0
+        if length >= TELLING_BYTES:
+            self._replies.append((length, seconds))
+            self._look()
         cost = seconds
         if self._baudrate:
             line_time = (length + OVERHEAD_BYTES) * BITS_A_BYTE / self._baudrate
             cost = min(seconds, line_time)
         self._cost = self._cost + cost if self._goes_on else cost
         self._goes_on = goes_on
+
+    @property
+    def bytes_a_second(self) -> float:
+        """What a slow line carries, 0 for one that isn't slow or isn't known."""
+        is_slow = self._baudrate < SLOW_BITS and not self._is_fast
+        return self._baudrate / BITS_A_BYTE if is_slow else 0.0
+
+    def _look(self) -> None:
+        """See whether the line is faster than its rate; between the bounds it stays as it was."""
+        length = sum(each for each, _ in self._replies)
+        seconds = sum(each for _, each in self._replies)
+        line_seconds = length * BITS_A_BYTE / self._baudrate if self._baudrate else 0.0
+        if seconds >= line_seconds:
+            self._is_fast = False
+        elif length >= TELLING_TOTAL and seconds * FASTER < line_seconds:
+            self._is_fast = True
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether it is time to ask less often: more than one poll in a row brought nothing."""
+        return self._failures > 1
 
     def failed(self) -> None:
         """Note a poll that brought nothing: back off, the more the oftener."""

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
+from ..model.columns import OtherElements
 from ..wire.reply import ModelReply
 from ..wire.request import LIVE_FLAGS, OUTLINE_FLAGS, ModelRequest, Request
 from .fetch import Fetch
-from .live import LIVE_KEYS, SEQS, LiveRound
-from .too_large import TooLarge
-
-FIRST = ("state", "boards", "heat", "tools", "move", "job", "fans", "sensors", "inputs")
-"""Fetched before the others, so that a page has something to show early."""
+from .live import SEQS, LiveRound, counter_of, keys_of
+from .rows import Rows
+from .too_large import TooLarge, key_of
+from .update import Update
 
 FETCHES_BETWEEN_LIVE = 4
 """Keys fetched in a row before a live reply is due again."""
@@ -24,26 +24,22 @@ PATIENCE = 3
 """Failures of one key in a row before the next one gets its turn."""
 
 
-class Update(NamedTuple):
-    """A value to put into the store; an empty path patches the whole model."""
-
-    path: str
-    value: Any
-
-
 class ModelPlan:
     """The order of ``M409`` requests, from what is known and what has failed.
 
     First the counters (``seqs``), the names of the keys, and every key once; then the live root
     again and again, and each key whose counter moved. A counter is taken before its key is
-    asked for, so that a change in between is seen as one.
+    asked for, so that a change in between is seen as one. While ``rows`` are on, parts come in
+    the place of the root, and of keys that moved; those are fetched when the line is free.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, rows: Rows) -> None:
+        self._rows = rows
         self.restart()
 
     def restart(self) -> None:
         """Begin anew, as with a board that was reset."""
+        self._rows.restart()
         self._request: ModelRequest | None = None
         self._counters: Mapping[str, Any] | None = None
         self._asked: dict[str, Any] = {}
@@ -51,14 +47,13 @@ class ModelPlan:
         self._fetched: set[str] = set()
         self._wanted: list[str] = []
         self._fetch: Fetch | None = None
-        self._asks_live = False
+        self._asks_live = self._asks_row = False
+        self._torn: set[str] = set()
+        self._model: Mapping[str, Any] = {}
         self._live = LiveRound()
         self.too_large = TooLarge()
         self._split: dict[str, int] = {}
-        self._refused = 0
-        self._since_live = 0
-        self._failures = 0
-        self._short = 0
+        self._refused = self._since_live = self._failures = self._short = 0
 
     @property
     def ready(self) -> bool:
@@ -68,7 +63,22 @@ class ModelPlan:
     @property
     def behind(self) -> bool:
         """Whether something waits to be fetched, apart from live values."""
-        return self._keys is None or bool(self._wanted)
+        return self._keys is None or bool(self._to_fetch) or self._rows.behind
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """Keys that are known to have changed, and wait to be fetched."""
+        return frozenset(self._rows.waiting).union(self._to_fetch)
+
+    @property
+    def _to_fetch(self) -> set[str]:
+        is_beside_a_print = self.is_sparing and not self._rows.is_free
+        return self._torn.intersection(self._wanted) if is_beside_a_print else set(self._wanted)
+
+    @property
+    def is_sparing(self) -> bool:
+        """Whether parts are asked for, one by one as they are needed."""
+        return self._rows.is_on and self.ready
 
     @property
     def is_amid(self) -> bool:
@@ -96,7 +106,16 @@ class ModelPlan:
             return ModelRequest(SEQS, LIVE_FLAGS)
         if self._keys is None:
             return ModelRequest("", OUTLINE_FLAGS)
-        self._asks_live = self._since_live >= FETCHES_BETWEEN_LIVE or not self._wanted
+        if self.is_sparing:
+            self._asks_live = self._rows.wants_whole
+            self._asks_row = not self._asks_live and not (self._to_fetch and self._asks_row)
+            if self._asks_row:
+                return self._rows.request(self._model)
+            if self._fetch is None:
+                self._wanted.sort(key=lambda key: key not in self._torn)
+        else:
+            self._asks_row = False
+            self._asks_live = self._since_live >= FETCHES_BETWEEN_LIVE or not self._wanted
         if not self._asks_live:
             if self._fetch is None:
                 key = self._wanted[0]
@@ -113,13 +132,18 @@ class ModelPlan:
             self._counters = reply.result if isinstance(reply.result, dict) else {}
             return [Update("", {SEQS: self._counters})]
         if self._keys is None:
-            return self._take_outline(reply.result)
+            self._keys = keys_of(reply.result)
+            self._wanted = list(self._keys)
+            return []
+        if self._asks_row:
+            return self._take_row(reply)
         if self._fetch is not None and not self._asks_live:
             return self._take_key(self._fetch, reply)
         self._since_live = 0
         for key in self.too_large.tick():
             self._want(key)
         members = self._live.take(reply)
+        self._rows.whole_came()
         return [] if members is None else [Update("", members)]
 
     def failed(self) -> None:
@@ -129,6 +153,9 @@ class ModelPlan:
         where live values fail.
         """
         self._request = None
+        if self._asks_row:
+            self._rows.failed()
+            return
         self._failures += 1
         if self._failures < PATIENCE:
             return
@@ -142,11 +169,12 @@ class ModelPlan:
             self._since_live = 0
 
     def no_buffers(self) -> list[Update]:
-        """Note ``{"err":-1}``: once may be chance, twice in a row calls for smaller requests.
-
-        Returns what a key's last member that can't be had leaves of it.
-        """
+        """Note ``{"err":-1}``, twice in a row a call for smaller requests; return what is left."""
         self._request = None
+        if self._asks_row:
+            self._short += 1
+            self.failed()
+            return []
         fetch = None if self._asks_live else self._fetch
         if self._asks_live and self._live.is_trial:
             self._live.no_room()
@@ -158,11 +186,11 @@ class ModelPlan:
         self._short += 1
         if self._short < 2:
             return []
-        if fetch is not None:
-            if fetch.split():
-                self._split[fetch.key] = 0
-                return []
+        if fetch is not None and not fetch.split():
             return self._has_no_room(fetch)
+        if fetch is not None:
+            self._split[fetch.key] = 0
+            return []
         # where there is no room for anything no key is to blame
         self._refused = 0
         if self._keys is not None and not self._live.no_room():
@@ -170,7 +198,7 @@ class ModelPlan:
         return []
 
     def _has_no_room(self, fetch: Fetch) -> list[Update]:
-        """Note that a part of a key that can't be split has no room; live values tell who has."""
+        """Note that what can't be split has no room; live values tell who has."""
         self._refused += 1
         self._since_live = FETCHES_BETWEEN_LIVE
         self._short = 0 if self._refused > 1 else self._short
@@ -195,6 +223,9 @@ class ModelPlan:
 
     def again(self, updates: list[Update]) -> None:
         """Note that what was just taken doesn't count: live values tell it again, and first."""
+        if self._asks_row:
+            self._rows.again()
+            return
         for path, value in updates:
             if path:
                 self._want(path)
@@ -204,11 +235,15 @@ class ModelPlan:
 
     def observe(self, model: Mapping[str, Any]) -> None:
         """Look at the counters after a change, and want each key that has another."""
+        self._model = model
         counters = model.get(SEQS)
         if isinstance(counters, dict) and counters is not self._counters:
+            before = {key: self._counter(key) for key in self._asked}
             self._counters = counters
-            for key in self._keys or ():
-                if key in self._asked and self._asked[key] != self._counter(key):
+            for key in before:
+                if self.is_sparing and before[key] != self._counter(key):
+                    self._rows.changed(key, model)
+                if self._asked[key] != self._counter(key):
                     self._want(key)
 
     def refetch(self, key: str = "") -> None:
@@ -217,16 +252,27 @@ class ModelPlan:
             if key in ("", name):
                 self.too_large.wake(name)
                 self._want(name)
+                self._rows.changed(name, self._model)
 
-    def _take_outline(self, outline: Any) -> list[Update]:
-        """Learn the names of the keys; the firmware says them all, verbose ones too."""
-        names = [name for name in outline if name != SEQS] if isinstance(outline, dict) else []
-        if not names:
-            self._keys = [key for key in LIVE_KEYS if key != SEQS]
-        else:
-            self._keys = sorted(names, key=lambda name: (name not in FIRST, _place(name)))
-        self._wanted = list(self._keys)
-        return []
+    def spare(self, bytes_a_second: float, share: float, is_free: bool) -> None:
+        """Ask for parts (``Rows.spare``), or with 0 for whole answers."""
+        was_sparing = self.is_sparing and not self._rows.is_free
+        self._rows.spare(bytes_a_second, share, is_free)
+        if self.is_sparing and not is_free and not was_sparing:
+            self._request = self._fetch = None
+            for key in self._wanted:
+                self._rows.changed(key, self._model)
+
+    def _take_row(self, reply: ModelReply) -> list[Update]:
+        """Return what a part lays over the model; a key that is built otherwise is fetched."""
+        try:
+            return [Update("", self._rows.take(reply, self._model))]
+        except OtherElements:
+            key = key_of(reply.key)
+            self._torn.add(key)
+            self._rows.torn(key)
+            self._want(key)
+            return []
 
     def _take_key(self, fetch: Fetch, reply: ModelReply) -> list[Update]:
         self._refused = 0
@@ -236,6 +282,8 @@ class ModelPlan:
         self.too_large.came(fetch.key, fetch.left_out)
         self._fetch = None
         self._wanted.pop(0)
+        self._torn.discard(fetch.key)
+        self._rows.key_came(fetch.key)
         self._fetched.add(fetch.key)
         self._since_live += 1
         if self._asked[fetch.key] != self._counter(fetch.key):
@@ -247,12 +295,4 @@ class ModelPlan:
             self._wanted.append(key)
 
     def _counter(self, key: str) -> Any:
-        """Return what tells whether a key changed; files on a card count by themselves."""
-        counters = self._counters or {}
-        if key == "volumes":
-            return counters.get(key), counters.get("volChanges")
-        return counters.get(key)
-
-
-def _place(key: str) -> int:
-    return FIRST.index(key) if key in FIRST else len(FIRST)
+        return counter_of(key, self._counters or {})

@@ -9,8 +9,8 @@ from ..card.listing import path_of
 from ..wire.m408 import M408Model
 from ..wire.reply import StatusReply
 from ..wire.request import JobFileRequest, Request, StatusRequest
-from .poll import Update
 from .too_large import TooLarge
+from .update import Update
 
 FORMS = (2, 3, 5, 4, 1, 0)
 """The forms, the most telling first; 3.6 has the last two alone, 3.7 none."""
@@ -61,6 +61,11 @@ class StatusPlan:
     def behind(self) -> bool:
         """Whether forms are left to ask once."""
         return bool(self._untried or self._again)
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """None: a form tells live values and all others at once."""
+        return frozenset()
 
     @property
     def exhausted(self) -> bool:

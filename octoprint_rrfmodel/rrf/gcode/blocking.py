@@ -34,12 +34,12 @@ _BLOCKING = frozenset(
 )
 
 
-def _padded(names: frozenset[str]) -> frozenset[str]:
+def padded(names: frozenset[str]) -> frozenset[str]:
     """Return names with those that files of other programs write as ``G04`` and ``M00``."""
     return names | {f"{name[0]}0{name[1]}" for name in names if len(name) == 2}
 
 
-BLOCKING = _padded(_BLOCKING)
+BLOCKING = padded(_BLOCKING)
 
 TARGETING = frozenset(("G10", "M104", "M109", "M140", "M141", "M190", "M191", "M568"))
 """Commands that may give a heater another target."""
@@ -47,10 +47,10 @@ TARGETING = frozenset(("G10", "M104", "M109", "M140", "M141", "M190", "M191", "M
 SETTLING = BLOCKING | {"M18", "M84", "G92", "M120", "M564"}
 """The commonest commands after which what was known of axes, heaters and tools may be wrong."""
 
-MOVES = _padded(frozenset(("G0", "G1", "G2", "G3")))
+MOVES = padded(frozenset(("G0", "G1", "G2", "G3")))
 
 # fmt: off
-_PLAIN = _padded(
+_PLAIN = padded(
     frozenset(
         (
             "G10", "G11", "G17", "G18", "G19", "G20", "G21", "G90", "G91", "G93", "G94",
@@ -80,6 +80,15 @@ def may_change(gcode: str, command: str = "") -> bool:
     if gcode in MOVES:
         return "H" in command
     return gcode[:1] in ("G", "M", "T") and gcode not in _PLAIN
+
+
+def is_plain_move(line: str) -> bool:
+    """Return whether a line that begins with a move is nothing else, and homes nothing.
+
+    >>> is_plain_move("G1 X1 E2"), is_plain_move("G1 H1 X1"), is_plain_move("G0 X1 G28")
+    (True, False, False)
+    """
+    return "M" not in line and "H" not in line and line.rfind("G") <= 0
 
 
 def blocks(line: str) -> bool:

@@ -8,7 +8,7 @@ runs the macro of its name (3.5 GCodes2.cpp, TryMacroFile), so what isn't known 
 
 from __future__ import annotations
 
-from .blocking import BLOCKING
+from .blocking import BLOCKING, padded
 from .doing import OTHER, what_of
 
 _G = """
@@ -26,7 +26,9 @@ _M = """
     905 906 907 908 911 912 913 915 917 918 929 943 950 951 952 954 955 956 957 970 997 999
 """
 
-QUICK = frozenset(["F", *(f"G{code}" for code in _G.split()), *(f"M{code}" for code in _M.split())])
+QUICK = padded(
+    frozenset(["F", *(f"G{code}" for code in _G.split()), *(f"M{code}" for code in _M.split())])
+)
 """The firmware's own commands whose ``ok`` comes soon, but for moves that wait for room; ``F`` is
 what a host has for the name of a line with a feed rate alone."""
 

@@ -39,6 +39,24 @@ def select_line(tool: int) -> str:
     return f"T{tool}"
 
 
+WORKPLACES = 9
+"""Coordinate systems, G54 to G59.3."""
+
+
+def workplace_line(workplace: int) -> str:
+    """Return the line that chooses a workplace, counted from 1.
+
+    >>> workplace_line(1), workplace_line(6), workplace_line(9)
+    ('G54', 'G59', 'G59.3')
+    """
+    return f"G{53 + workplace}" if workplace < 7 else f"G59.{workplace - 6}"
+
+
+def set_zero_line(axes: Iterable[str], workplace: int) -> str:
+    """Return the line that makes the present place of the axes zero in a workplace."""
+    return f"G10 L20 P{workplace} {' '.join(axis_words(dict.fromkeys(axes, 0)))}"
+
+
 def speed_factor_line(percent: float) -> str:
     """Return the line that sets the factor of all speeds."""
     return f"M220 S{number(percent)}"

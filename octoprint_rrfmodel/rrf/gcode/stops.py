@@ -11,9 +11,10 @@ import re
 
 from ..views.machine import Machine
 from ..wire.gcode_words import words
+from .blocking import padded
 from .switch_off import all_off
 
-STOPS = frozenset(("M0", "M1"))
+STOPS = padded(frozenset(("M0", "M1")))
 
 ROW = "stop"
 """As the setting that switches this off is called."""
@@ -21,11 +22,21 @@ ROW = "stop"
 _COMMENT = re.compile(r";.*|\([^()]*\)|^\s*%\s*$")
 """What is no command: RRF's two kinds of comments, and the sign around files of CNC machines."""
 
-_STOP = re.compile(r"\s*(?:N\d+\s*)?M0*[01](?!\d)", re.IGNORECASE)
+_STOP = re.compile(r"\s*(?:N\d+\s*)?M0*(?P<number>[01])(?![\d.])", re.IGNORECASE)
 
 
 REFUSES_STOPS = (3, 5)
 """From here on a channel that prints no file is told to pause first (seen in 3.5.3)."""
+
+
+def plain_stop(line: str) -> str | None:
+    """Return a stop in the only form in which hosts know one, ``None`` for other commands.
+
+    >>> plain_stop("N70 m00 H1"), plain_stop("M1"), plain_stop("M10")
+    ('M0 H1', 'M1', None)
+    """
+    found = _STOP.match(line)
+    return f"M{found['number']}{line[found.end() :]}" if found else None
 
 
 def stop_lines(command: str, gcode: str, machine: Machine) -> list[str]:

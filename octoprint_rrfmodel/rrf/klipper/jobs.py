@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from ..wire.sentences import sentences
 from .printer import Printer
 from .values import number, text, whole
 from .world import CANCELLING, CARD, ENDED, HOST, PAUSED, PRINTING, HostJob, Job
@@ -81,7 +82,7 @@ def lost(job: Job) -> Job:
 
 def told(job: Job, line: str) -> Job:
     """Return a job after the printer has said a line."""
-    line = line.strip()
+    line = sentences(line.strip())
     if job.runs and line.startswith("Error:"):
         job = job._replace(error=line)
     if ENDING_WORD in line:

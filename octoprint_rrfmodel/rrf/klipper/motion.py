@@ -161,6 +161,17 @@ def _mesh_corner(name: str) -> Any:
     return field
 
 
+def _mesh_matrix(view: View, thing: Any) -> list[list[float | None]]:
+    """Return the heights of the mesh in use, a list for each Y, where its file was read."""
+    found = view.host.heights
+    if found is None or not _mesh_profile(view, thing):
+        return [[]]
+    rows = [list(row) for row in found.points]
+    if found.axes == ("Y", "X"):
+        return [list(column) for column in zip(*rows)]
+    return rows if found.axes == ("X", "Y") else [[]]
+
+
 ROWS = (
     Row(
         "gcode_move",
@@ -216,8 +227,8 @@ ROWS = (
             "profile_name": _mesh_profile,
             "mesh_min": _mesh_corner("mins"),
             "mesh_max": _mesh_corner("maxs"),
-            "probed_matrix": lambda view, _: [[]],
-            "mesh_matrix": lambda view, _: [[]],
+            "probed_matrix": _mesh_matrix,
+            "mesh_matrix": _mesh_matrix,
             "profiles": lambda view, _: {},
         },
     ),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+from ..card.height_map import HeightMap
+
 CARD = "card"
 HOST = "host"
 
@@ -42,6 +44,8 @@ class Host(NamedTuple):
     """Whether the line waits for a command that the machine is busy with."""
     macros: Sequence[str] = ()
     """Names of the macro files, with or without the folder ``0:/macros/``."""
+    heights: HeightMap | None = None
+    """The mesh in use, where its file was read."""
 
 
 class Job(NamedTuple):

@@ -45,6 +45,11 @@ def _warning_codes(sources: Sources) -> Iterator[Sample]:
         yield (code,), 1
 
 
+def _ages(sources: Sources) -> Iterator[Sample]:
+    for key, age in mapping(sources.status.get("ages")).items():
+        yield (key,), age
+
+
 METRICS = (
     Metric(
         "rrf_info", GAUGE, "The plugin, and the firmware as it said of itself.", tuple(INFO), _info
@@ -68,6 +73,13 @@ METRICS = (
         _blocked,
     ),
     Metric("rrf_age_seconds", GAUGE, "Time since the last reply that was applied.", (), own("age")),
+    Metric(
+        "rrf_key_age_seconds",
+        GAUGE,
+        "Time since the oldest part of a top-level key was heard of.",
+        ("key",),
+        _ages,
+    ),
     Metric("rrf_warnings", GAUGE, "How many warnings there are.", (), _warning_count),
     Metric("rrf_warning", GAUGE, "1 for each warning that there is.", ("code",), _warning_codes),
     Metric("rrf_revisions_total", COUNTER, "Replies that changed the model.", (), own("revision")),

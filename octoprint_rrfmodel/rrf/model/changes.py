@@ -51,6 +51,11 @@ class Subscriptions:
 
         return unsubscribe
 
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The keys of which somebody wants changes."""
+        return tuple(subscription.key.text for subscription in self._subscriptions)
+
     def tell(
         self, before: Mapping[str, Any], after: Mapping[str, Any], changes: Changes | None
     ) -> None:

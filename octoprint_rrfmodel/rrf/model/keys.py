@@ -43,7 +43,7 @@ class Key:
         """Take a key apart; raises ``MalformedKey``."""
         self.text = text
         self._lengths = text.startswith("#")
-        self._steps = tuple(_steps(text[1:] if self._lengths else text, text))
+        self._steps = tuple(_steps(text, 1 if self._lengths else 0))
 
     def value(self, model: Mapping[str, Any], default: Any = None) -> Any:
         """Return the value in a snapshot, ``default`` where there is none.
@@ -99,26 +99,27 @@ def value_at(model: Mapping[str, Any], key: str, default: Any = None) -> Any:
         return default
 
 
-def _steps(rest: str, text: str) -> list[Step]:
+def _steps(text: str, at: int) -> list[Step]:
     steps: list[Step] = []
-    while rest:
-        if rest == "." and steps:
+    end = len(text)
+    while at < end:
+        if at == end - 1 and text[at] == "." and steps:
             return [*steps, _Step.MEMBERS]
         step: Step
-        if rest.startswith("[]") and steps:
-            step, rest = _Step.EACH, rest[2:]
-        elif rest.startswith("[") and steps:
-            index = _INDEX.match(rest)
+        if steps and text.startswith("[]", at):
+            step, at = _Step.EACH, at + 2
+        elif steps and text[at] == "[":
+            index = _INDEX.match(text, at)
             if index is None:
                 raise MalformedKey(f"{text!r} is no key: what is in brackets is no number")
-            step, rest = int(index[1] + index[2]), rest[index.end() :]
+            step, at = int(index[1] + index[2]), index.end()
         else:
-            if steps and not rest.startswith("."):
+            if steps and text[at] != ".":
                 raise MalformedKey(f"{text!r} is no key: a name has to follow a dot")
-            name = _NAME.match(rest, 1 if steps else 0)
+            name = _NAME.match(text, at + 1 if steps else at)
             if name is None:
                 raise MalformedKey(f"{text!r} is no key: a name is missing")
-            step, rest = name[0], rest[name.end() :]
+            step, at = name[0], name.end()
         steps.append(step)
     return steps
 

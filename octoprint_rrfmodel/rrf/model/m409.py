@@ -76,7 +76,8 @@ class _Marked(dict):  # type: ignore[type-arg]
     """The root's alone: the node of ``move.axes``, of which not all elements are shown."""
 
 
-def _tree(marks: Mapping[str, frozenset[str]]) -> _Marked:
+def prepared(marks: Mapping[str, frozenset[str]]) -> _Marked:
+    """Return marks in the form that ``answer`` takes fastest, for who asks with them often."""
     root = _Marked()
     for path, own in marks.items():
         node = root
@@ -87,7 +88,7 @@ def _tree(marks: Mapping[str, frozenset[str]]) -> _Marked:
     return root
 
 
-_MARKS_TREE = _tree(MARKS)
+_MARKS_TREE = prepared(MARKS)
 _UNMARKED = _Marked()
 
 
@@ -95,7 +96,7 @@ def answer(
     model: Any,
     key: str = "",
     flags: str = "",
-    marks: Mapping[str, frozenset[str]] = MARKS,
+    marks: Mapping[str, Any] = MARKS,
     *,
     firmware: bool = False,
     axes_shown: int | None = AXES_SHOWN,
@@ -103,13 +104,16 @@ def answer(
     """Return ``{"key", "flags", "result"}``, and ``"next"`` for an array; never raises.
 
     ``model`` holds plain JSON values and is not changed; parts of it may be shared with the
-    result. ``marks`` maps a path pattern to its marks. ``firmware=True`` follows the firmware to
+    result. ``marks`` maps a path pattern to its marks, or is
+    what ``prepared`` has made of that. ``firmware=True`` follows the firmware to
     the letter: depth 1 for an empty key even with ``f``, long arrays cut with ``next``, and
     ``move.axes`` cut to ``axes_shown`` elements (``None`` for firmware before 3.5). Otherwise
     the vendor's page wins over the firmware's first deviation and nothing is cut.
     """
     reply: dict[str, Any] = {"key": key, "flags": flags}
-    tree = _MARKS_TREE if marks is MARKS else _tree(marks)
+    tree = _MARKS_TREE if marks is MARKS else marks
+    if not isinstance(tree, _Marked):
+        tree = prepared(marks)
     asked = parse_flags(flags)
     try:
         reply.update(

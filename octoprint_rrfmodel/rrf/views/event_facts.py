@@ -18,8 +18,28 @@ from .state_words import MONITORS, STATUSES, known
 
 Model = Mapping[str, Any]
 
-ENDED = re.compile(r"(?P<how>Finished|Cancelled) printing file ")
-"""What USB is told at the end of a job (3.5 GCodes.cpp, StopPrint); group ``how`` says which."""
+ENDED = re.compile(
+    r"(?P<how>Finished|Cancelled) printing file (?P<path>.{0,260}?)(?:, print time|$)"
+)
+"""What USB is told at the end of a job (3.5 GCodes.cpp, StopPrint): ``how`` one has, and which."""
+
+
+def end_told(line: str, path: str | None) -> str:
+    """Return how the job of that file has ended by a line, ``Finished`` or ``Cancelled``.
+
+    Empty for any other line; one about the job before may come when the next has begun.
+    """
+    found = ENDED.search(line)
+    if found is None or not _is_same(found["path"], path):
+        return ""
+    return found["how"]
+
+
+def _is_same(told: str, path: str | None) -> bool:
+    """Return whether two paths are of one file, one of which may begin anywhere."""
+    names = [each.rpartition("/")[2].lower() for each in (told, path or "")]
+    return names[0] == names[1] or not all(names)
+
 
 BACK_SECONDS = 1.0
 """By how much a job's duration has to go back to be that of another one; it is told rounded."""
@@ -76,10 +96,10 @@ class Facts(NamedTuple):
 
     def heard(self, line: str) -> Facts:
         """Return the facts after a line from the printer that may tell how the job has ended."""
-        found = ENDED.search(line)
-        if found is None or self.job is None:
+        if self.job is None:
             return self
-        return self._replace(job=self.job._replace(heard=found["how"]))
+        how = end_told(line, self.job.file)
+        return self._replace(job=self.job._replace(heard=how)) if how else self
 
 
 def facts_of(model: Model, last: Facts) -> Facts:

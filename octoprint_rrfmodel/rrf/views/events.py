@@ -86,7 +86,7 @@ def _changed(name: str) -> Callable[[Facts, Facts], Iterator[Payload]]:
 
 def _job_finished(before: Facts, after: Facts) -> Iterator[Payload]:
     if before.job is not None and not _goes_on(before.job, after.job):
-        end = _end(before.job, after)
+        end = end_of(before.job, after)
         yield {
             "duration": before.job.duration,
             "cancelled": end != COMPLETE,
@@ -103,7 +103,7 @@ def _goes_on(job: Job, other: Job | None) -> bool:
     return other is not None and job.number == other.number
 
 
-def _end(job: Job, after: Facts) -> str:
+def end_of(job: Job, after: Facts) -> str:
     """Return how a job has ended: by what the firmware said, else by what can be seen of it."""
     if job.heard:
         return COMPLETE if job.heard == "Finished" else CANCELLED

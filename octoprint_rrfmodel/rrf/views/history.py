@@ -101,6 +101,11 @@ class History:
         self._labels: dict[tuple[str, int, str], tuple[str, str]] = {}
         self._told_at: dict[tuple[str, int, str], float] = {}
         self._ends_with_gap = True
+        self._is_new = False
+
+    def connected(self) -> None:
+        """Note that another machine may be there now."""
+        self._is_new = True
 
     def sample(
         self, model: Mapping[str, Any], now: float, heaters: Container[int] | None = None
@@ -112,6 +117,10 @@ class History:
         self._follow_clock(now)
         if self._times and now - self._times[-1] < INTERVAL_SECONDS and not self._ends_with_gap:
             return
+        # which sensors are heaters' own is known with the heaters alone
+        if self._is_new and heaters is None and model.keys() >= {"heat", "sensors"}:
+            self._is_new = False
+            self._forget_what_is_gone(model)
         values = {}
         for kind, number, thing in _things(model):
             is_known = heaters is None or (kind.is_reported and number in heaters)
@@ -167,6 +176,12 @@ class History:
             del column[:count]
             if self._told_at[key] < time:
                 del self._columns[key], self._told_at[key], self._labels[key]
+
+    def _forget_what_is_gone(self, model: Mapping[str, Any]) -> None:
+        """Drop series of what this machine doesn't have: they were another one's."""
+        there = {(kind.kind, number) for kind, number, _ in _things(model)}
+        for key in [key for key in self._columns if key[:2] not in there]:
+            del self._columns[key], self._told_at[key], self._labels[key]
 
     def _follow_clock(self, now: float) -> None:
         """Drop what would lie ahead because the clock was set back."""

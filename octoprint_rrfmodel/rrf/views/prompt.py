@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from .machine import array
+from .told_box import is_told
 
 Box = Mapping[str, Any]
 """``state.messageBox``."""
@@ -101,7 +102,11 @@ def answer(box: Box, index: int, version: tuple[int, ...]) -> str | None:
     if not 0 <= index < len(found):
         return None
     seq = box.get("seq")
-    which = f" S{seq}" if version >= ANSWERS_BY_NUMBER and isinstance(seq, int) else ""
+    which = (
+        f" S{seq}"
+        if version >= ANSWERS_BY_NUMBER and isinstance(seq, int) and not is_told(seq)
+        else ""
+    )
     return f"M292 {found[index].answer}{which}"
 
 

@@ -10,6 +10,8 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from .sentences import sentences
+
 MAIN_BOARD = 0
 
 
@@ -44,6 +46,7 @@ _DRIVERS = re.compile(
 
 def alerts(text: str) -> Iterator[Alert]:
     """Yield each fault that a text tells of."""
+    text = sentences(text)
     for code, pattern in _ONE:
         for found in pattern.finditer(text):
             yield Alert(code, (int(found[1]),))

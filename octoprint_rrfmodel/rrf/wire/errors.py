@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from .alerts import alerts
+from .sentences import sentences
 
 SERIOUS = (
     r"heater \d+ fault",  # 3.3 LocalHeater.cpp:743
@@ -33,7 +34,7 @@ _SERIOUS = re.compile("|".join(SERIOUS))
 
 def is_serious(text: str) -> bool:
     """Return whether an error's text tells of harm to the machine or of a fault of it."""
-    return _SERIOUS.search(text.lower()) is not None
+    return _SERIOUS.search(sentences(text).lower()) is not None
 
 
 def guarded_warning(text: str) -> str | None:
@@ -43,4 +44,4 @@ def guarded_warning(text: str) -> str | None:
 
 def is_halted(text: str) -> bool:
     """Return whether a command was refused because the board was halted."""
-    return HALTED in text.lower()
+    return HALTED in sentences(text).lower()

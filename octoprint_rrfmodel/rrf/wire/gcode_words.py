@@ -13,6 +13,9 @@ Python writes very small numbers with ``e-``."""
 _TEXT = re.compile(r'(?:(?P<letter>[A-Za-z])\s*)?"(?P<text>(?:[^"]|"")*)"')
 """A text in quotes, with the letter in front of it if there is one."""
 
+LONGEST = 1000
+"""Characters of a command that are looked at; the firmware takes 256, and refuses longer ones."""
+
 KEEPS_MODES = "M120"
 """Keeps modes and feed rate until M121 (3.5 GCodeMachineState.cpp:41-60)."""
 
@@ -28,7 +31,7 @@ def words(line: str) -> dict[str, float | None]:
     >>> words("G0 X10 Y-5.5 F200")
     {'G': 0.0, 'X': 10.0, 'Y': -5.5, 'F': 200.0}
     """
-    return {letter.upper(): _finite(number) for letter, number in _WORD.findall(line)}
+    return {letter.upper(): _finite(number) for letter, number in _WORD.findall(line[:LONGEST])}
 
 
 def _finite(number: str) -> float | None:
@@ -104,7 +107,7 @@ def texts(line: str) -> dict[str, str]:
     """
     return {
         found["letter"].upper(): _unquoted(found["text"])
-        for found in _TEXT.finditer(line)
+        for found in _TEXT.finditer(line[:LONGEST])
         if found["letter"]
     }
 

@@ -24,11 +24,11 @@ _COMMAND = re.compile(
 
 _NAMED = re.compile(
     r"(?:passw(?:or)?d|passphrase|passcode|secret|api[-_ ]?key|token|psk)"
-    r"\w{0,30}[\"']?[ \t]{0,8}(?:[:=]|is\b)",
+    r"(?=(\w{0,30}))\1[\"']?[ \t]{0,8}(?:[:=]|is\b)",
     re.IGNORECASE,
 )
-"""What is called a secret, as a variable or in a reply, up to its value; bounded, as without that
-a long line of nothing but such names would take time that grows with its square."""
+"""What is called a secret, as a variable or in a reply, up to its value; the rest of the name
+is bounded and taken as a whole, or a long line of nothing but such names would take long."""
 
 
 def masked(line: str) -> str:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from .errors import is_halted, is_serious
 from .gcode_words import words
+from .sentences import sentences
 
 LINE, EXTRUSION, MACHINE = "line", "extrusion", "machine"
 """What a reply is about: the command that is awaited, one before it that extruded (it comes behind
@@ -87,6 +88,7 @@ def refusal(line: str) -> Refusal | None:
     """
     if not line.startswith(BEGINS) or is_halted(line) or is_serious(line):
         return None
+    line = sentences(line)
     for row, pattern in _ROWS:
         # of commands that have failed no more than a warning is told where it goes on as it was to
         if pattern.search(line) and (row.about == EXTRUSION or line.startswith("Error:")):

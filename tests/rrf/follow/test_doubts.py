@@ -3,6 +3,7 @@
 import pytest
 
 from octoprint_rrfmodel.rrf.follow.doubts import MOST_DOUBTS
+from octoprint_rrfmodel.rrf.follow.follower import Follower
 from octoprint_rrfmodel.rrf.views.warnings import faults
 from octoprint_rrfmodel.rrf.wire.request import LIVE_FLAGS, ModelRequest
 
@@ -144,6 +145,18 @@ def test_fault_in_the_answer_about_a_key_is_doubted_too():
         serve(follower, board)
     assert faults(follower.store.model) == []
     assert follower.store.model == board.model
+
+
+def test_fault_that_is_known_by_another_name_once_more_is_known_is_the_same():
+    """Live values tell no board's address: its drivers' faults are called by its place before."""
+    model = guarded()
+    first = model["boards"][0]
+    model["boards"].append({**first, "canAddress": 20, "drivers": [{"status": 2}]})
+    board = Board(model)
+    follower = Follower()
+    serve(follower, board, 60)
+    assert follower.store.model == board.model
+    assert [each.numbers for each in faults(follower.store.model)] == [(20, 0)]
 
 
 def test_line_that_tells_something_else_each_time_is_not_doubted_for_ever():

@@ -5,7 +5,8 @@ import json
 import pytest
 
 from octoprint_rrfmodel.rrf.follow.follower import NOT_SUPPORTED_AFTER, Follower, answers
-from octoprint_rrfmodel.rrf.follow.poll import FETCHES_BETWEEN_LIVE, LIVE_KEYS
+from octoprint_rrfmodel.rrf.follow.live import LIVE_KEYS
+from octoprint_rrfmodel.rrf.follow.poll import FETCHES_BETWEEN_LIVE
 from octoprint_rrfmodel.rrf.model.merge import paths
 from octoprint_rrfmodel.rrf.wire.reply import ModelReply, NoBuffers, StatusReply
 from octoprint_rrfmodel.rrf.wire.request import (

@@ -84,7 +84,7 @@ def test_live_root_without_room_comes_in_parts():
     assert follower.store.model == board.model
 
 
-def test_whole_live_answers_come_back_as_soon_as_there_is_room():
+def test_row_11_whole_live_answers_come_back_as_soon_as_there_is_room():
     board = Board()
     follower = following(board)
     follower.take(NO_BUFFERS)
@@ -106,7 +106,7 @@ def test_whole_live_answer_is_tried_less_often_where_there_is_never_room():
     assert follower.short_of_buffers == 0
 
 
-def test_fault_is_believed_where_live_values_come_in_parts():
+def test_row_11_fault_is_believed_where_live_values_come_in_parts():
     board = Board()
     board.model["heat"]["heaters"][1]["state"] = "active"
     board.rooms = {"": len(board.reply(LIVE)) - 1}
@@ -147,7 +147,7 @@ def test_key_that_never_fits_lets_the_others_have_their_turn():
 
 
 @pytest.mark.parametrize("path", ["global", "global.big"])
-def test_member_that_never_fits_is_left_out_and_the_rest_is_there(path):
+def test_row_25_member_that_never_fits_is_left_out_and_the_rest_is_there(path):
     board = Board()
     board.model["global"] = {"big": {"x": {"y": "z" * 500}}, "mine": [1, {"a": None}], "n": 5}
     follower = Follower()

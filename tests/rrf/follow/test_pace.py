@@ -59,7 +59,7 @@ def test_usb_that_is_faster_than_its_rate_counts_by_the_clock():
 
 def test_each_failure_makes_it_wait_longer_up_to_a_limit():
     waits = [paced(0.01, failures=failures).wait(printing=False) for failures in range(1, 12)]
-    assert waits[:3] == [2.0, 4.0, 8.0]
+    assert waits[:3] == [IDLE_SECONDS * factor for factor in (2, 4, 8)]
     assert waits == sorted(waits)
     assert waits[-1] == LONGEST_SECONDS
 
@@ -78,3 +78,52 @@ def test_new_connection_begins_anew():
     pace = paced(10.0, failures=5)
     pace.connected(0)
     assert pace.wait(printing=False) == IDLE_SECONDS
+
+
+USB = 115200
+"""Rate that is set; the board's replies come as fast as its USB carries them."""
+
+
+def heard(pace, *replies):
+    """Return what the line is taken for; replies are bytes and the part of the line's time."""
+    for length, part in replies:
+        pace.answered(length, length * 10 / USB * part)
+    return pace.bytes_a_second
+
+
+def connected():
+    pace = Pace()
+    pace.connected(USB)
+    return pace
+
+
+def test_line_is_slow_until_enough_was_heard():
+    pace = connected()
+    assert pace.bytes_a_second == USB / 10
+    assert heard(pace, *[(900, 0.1)] * 3) == USB / 10
+    assert heard(pace, (900, 0.1)) == 0
+
+
+def test_usb_stays_fast_though_some_replies_come_late():
+    pace = connected()
+    assert heard(pace, *[(1000, 0.1)] * 6) == 0
+    assert heard(pace, *[(1000, 2.0), (300, 1.5)] * 2) == 0
+
+
+def test_clock_that_was_held_up_once_makes_no_uart_fast():
+    pace = connected()
+    assert heard(pace, *[(1000, 1.05)] * 6, *[(400, 0.1), (400, 0.1)], *[(1000, 1.05)] * 2) > 0
+
+
+def test_uart_that_was_taken_for_usb_is_found_out():
+    pace = connected()
+    assert heard(pace, *[(1000, 0.5)] * 3) == 0
+    assert heard(pace, *[(1000, 1.05)] * 12) == USB / 10
+
+
+def test_line_that_says_it_is_fast_is_never_spared():
+    pace = Pace()
+    pace.connected(1_000_000)
+    for _ in range(20):
+        pace.answered(1000, 1.0)
+    assert pace.bytes_a_second == 0

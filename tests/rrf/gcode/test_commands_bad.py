@@ -5,6 +5,7 @@ import pytest
 from octoprint_rrfmodel.rrf.gcode.commands import COMMANDS, Refusal
 
 from ..commanded import go, on, refused
+from . import setup_cases
 from .test_commands_lines import box
 
 IDEX = {"state.currentTool": 2}
@@ -151,6 +152,12 @@ TABLE = [
     ("tool_offsets", {"tool": 0, "offsets": {}}, "cartesian", {}, "not_moves"),
     ("tool_offsets", {"tool": 0, "offsets": {"X": 10_001}}, "cartesian", {}, "out_of_range"),
     ("tool_offsets", {"tool": 0, "offsets": {"X": "1"}}, "cartesian", {}, "not_a_number"),
+    ("workplace", {"workplace": 0}, "cnc", {}, "out_of_range"),
+    ("workplace", {"workplace": 10}, "cnc", {}, "out_of_range"),
+    ("workplace", {"workplace": 1.0}, "cnc", {}, "not_whole"),
+    ("workplace", {}, "cnc", {}, "missing_parameter"),
+    ("set_zero", {"axes": "U", "workplace": 1}, "cnc", {}, "no_such_axis"),
+    ("set_zero", {"axes": "X"}, "cnc", {"move.workplaceNumber": None}, "missing_parameter"),
     # message boxes
     ("message_box", {"action": "close"}, "cartesian", box(2), "wrong_word"),
     ("message_box", {"action": "ok", "seq": -1}, "cartesian", box(2), "out_of_range"),
@@ -236,6 +243,7 @@ TABLE = [
     ("filament", {"action": "load", "name": "../sys"}, "cartesian", {}, "filament_name"),
     ("filament", {"action": "change", "name": "PLA"}, "cartesian", {}, "wrong_word"),
     ("mesh", {"action": "save"}, "cartesian", {}, "wrong_word"),
+    *setup_cases.BAD,
 ]
 
 

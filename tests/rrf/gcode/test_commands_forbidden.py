@@ -6,6 +6,7 @@ from octoprint_rrfmodel.rrf.gcode.commands import COMMANDS, Situation
 from octoprint_rrfmodel.rrf.views.machine import Machine
 
 from ..commanded import FREE, go, on, refused
+from . import setup_cases
 from .test_commands_lines import BOX, box
 
 VALID = {
@@ -25,6 +26,8 @@ VALID = {
     "extrusion_factor": {"extruder": 0, "percent": 100},
     "spindle": {"spindle": 0, "rpm": 1000},
     "tool_offsets": {"tool": 0, "offsets": {"X": 1}},
+    "workplace": {"workplace": 2},
+    "set_zero": {"axes": "X", "workplace": 2},
     "message_box": {"action": "ok"},
     "macro": {"path": "a.g"},
     "object": {"index": 0, "action": "cancel"},
@@ -34,6 +37,7 @@ VALID = {
     "power": {"on": False},
     "emergency_stop": {},
     "recover": {},
+    **setup_cases.VALID,
 }
 
 STREAMS = FREE._replace(octoprint_prints=True)
@@ -52,8 +56,22 @@ NOT_WHILE_PRINTING = {
     "recover",
     "spindle",
     "tool_offsets",
+    "workplace",
+    "set_zero",
+    *setup_cases.NOT_WHILE_PRINTING,
 }
-WHILE_PAUSED = {"spindle", "tool_offsets", "jog", "extrude", "select_tool", "filament", "recover"}
+WHILE_PAUSED = {
+    "spindle",
+    "tool_offsets",
+    "workplace",
+    "set_zero",
+    "jog",
+    "extrude",
+    "select_tool",
+    "filament",
+    "recover",
+    *setup_cases.WHILE_PAUSED,
+}
 
 
 def always_ready(**members):
@@ -199,6 +217,20 @@ TABLE = [
     ),
     ("power", {"on": True}, {"state.atxPower": None}, FREE, "no_power_control"),
     (
+        "restore_point",
+        {"point": 0, "action": "go"},
+        {"move.axes[2].homed": False},
+        FREE,
+        "not_homed",
+    ),
+    (
+        "motor_current",
+        {"extruder": 0, "milliamps": 800},
+        {"move.extruders": [{}, {}]},
+        FREE,
+        "currents_unknown",
+    ),
+    (
         "chamber",
         {"state": "active"},
         {"heat.chamberHeaters": [0], "heat.heaters[0].active": None},
@@ -223,6 +255,10 @@ def test_forbidden(name, parameters, members, situation, code):
         ("tool_state", {"tool": 0, "state": "active"}, "2.05", "tool_state_firmware"),
         ("tool_state", {"tool": 0, "state": "standby"}, "2.05", "tool_state_firmware"),
         ("object", {"index": 0, "action": "cancel"}, "2.05", "objects_firmware"),
+        ("heater_monitor", {"heater": 1, "limit": 280}, "2.05", "needs_firmware"),
+        ("variable", {"name": "retries", "value": 4}, "2.05", "needs_firmware"),
+        ("input_shaping", {"type": "mzv"}, "3.3", "needs_firmware"),
+        ("led", setup_cases.VALID["led"], "3.4", "needs_firmware"),
     ],
 )
 def test_what_a_firmware_has_not_got(name, parameters, firmware, code):

@@ -5,9 +5,11 @@ import pytest
 from octoprint_rrfmodel.rrf.gcode.commands import COMMANDS, translate
 from octoprint_rrfmodel.rrf.gcode.operations import Lines
 from octoprint_rrfmodel.rrf.views.machine import Machine
+from octoprint_rrfmodel.rrf.views.told_box import FIRST_NUMBER
 from tests.support.places import ROOT
 
 from ..commanded import FREE, VERSIONS, go, on
+from . import setup_cases
 
 OLD = ("2.05",)
 FROM_33 = VERSIONS[1:]
@@ -185,11 +187,25 @@ TABLE = [
         ["G10 P10 X0.25 Z-3"],
     ),
     ("tool_offsets", {"tool": 0, "offsets": {"a": 1}}, "manyaxes", FROM_33, {}, ["G10 P0 'a1"]),
+    ("workplace", {"workplace": 1}, "cnc", VERSIONS, {}, ["G54"]),
+    ("workplace", {"workplace": 6}, "cnc", VERSIONS, {}, ["G59"]),
+    ("workplace", {"workplace": 9}, "cnc", VERSIONS, {}, ["G59.3"]),
+    ("set_zero", {"axes": "XZ", "workplace": 2}, "cnc", VERSIONS, {}, ["G10 L20 P2 X0 Z0"]),
+    ("set_zero", {"axes": ["a"], "workplace": 9}, "manyaxes", FROM_33, {}, ["G10 L20 P9 'a0"]),
+    (
+        "set_zero",
+        {},
+        "cnc",
+        FROM_33,
+        {"move.workplaceNumber": 4},
+        ["G10 L20 P5 X0 Y0 Z0"],
+    ),
     ("message_box", {"action": "ok"}, "cartesian", TO_34, box(2), ["M292 P0"]),
     ("message_box", {"action": "cancel", "seq": 7}, "cartesian", TO_34, box(3), ["M292 P1"]),
     ("message_box", {"action": "ok"}, "cartesian", FROM_35, box(1), ["M292 P0 S7"]),
     ("message_box", {"action": "ok", "seq": 7}, "cartesian", FROM_35, box(3), ["M292 P0 S7"]),
     ("message_box", {"action": "cancel"}, "cartesian", FROM_35, box(3), ["M292 P1 S7"]),
+    ("message_box", {"action": "ok"}, "cartesian", FROM_35, box(2, seq=FIRST_NUMBER), ["M292 P0"]),
     (
         "message_box",
         {"action": "cancel"},
@@ -310,6 +326,7 @@ TABLE = [
     ("mesh", {"action": "calibrate"}, "cartesian", VERSIONS, {}, ["G32"]),
     ("power", {"on": True}, "cartesian", VERSIONS, {}, ["M80"]),
     ("power", {"on": False}, "cartesian", VERSIONS, {}, ["M81"]),
+    *setup_cases.LINES,
 ]
 
 
@@ -335,7 +352,9 @@ def test_every_command_has_a_case():
 def test_every_command_has_a_case_for_every_firmware(command):
     covered = {version for case in TABLE if case[0] == command.name for version in case[3]}
     # M486 came with 3.1; 2.05 told of no chamber here
-    missing = {"object": {"2.05"}, "chamber": {"2.05"}}.get(command.name, set())
+    missing = {"object": {"2.05"}, "chamber": {"2.05"}, **setup_cases.MISSING}.get(
+        command.name, set()
+    )
     assert covered == set(VERSIONS) - missing
     assert command.source
 

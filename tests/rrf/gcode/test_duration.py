@@ -1,8 +1,10 @@
 """Commands that may keep the line silent for long."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from octoprint_rrfmodel.rrf.gcode.blocking import BLOCKING
+from octoprint_rrfmodel.rrf.gcode.blocking import BLOCKING, MOVES, is_plain_move, may_change
 from octoprint_rrfmodel.rrf.gcode.duration import QUICK, takes_long
 
 
@@ -31,6 +33,8 @@ def test_takes_long(line, gcode):
     [
         ("G1 X10 E2 F3000", "G1"),
         ("G0 X1", "G0"),
+        ("G01 X1", "G01"),
+        ("M03 S1000", "M03"),
         ("F3000", "F"),
         ("M105", "M105"),
         ('M409 K"heat"', "M409"),
@@ -48,3 +52,14 @@ def test_is_quick(line, gcode):
 
 def test_nothing_is_both():
     assert QUICK.isdisjoint(BLOCKING)
+
+
+PARTS = st.sampled_from([" ", "X1", "E2", "H1", "G28", "M98", "G1", "P", '"G"', ";", "T1", "1"])
+
+
+@given(st.sampled_from(sorted(MOVES)), st.lists(PARTS, max_size=6))
+def test_a_plain_move_is_quick_and_changes_nothing(gcode, parts):
+    line = " ".join([gcode, *parts])
+    if is_plain_move(line):
+        assert not takes_long(line, gcode)
+        assert not may_change(gcode, line)

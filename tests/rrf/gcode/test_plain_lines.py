@@ -1,13 +1,12 @@
 """Lines that a host takes for no command, and asterisks, as the firmware's own code reads them."""
 
 import json
-import os
 import re
-from pathlib import Path
 
 import pytest
 
 from octoprint_rrfmodel.rrf.gcode.plain_lines import name_of, with_safe_stars
+from tests.support.recordings import RECORDINGS
 
 HOSTS = re.compile(r"^\s*([GM]\d+(\.\d+)?|T\d+|F\d+)")
 """What OctoPrint takes for a command (comm.py, regex_command)."""
@@ -71,7 +70,7 @@ def test_asterisk(command, safe):
 
 def recorded():
     """Give inputs of the firmware's own code that are one line and no command to a host."""
-    path = Path(os.environ.get("RRF_SHARED", "")) / "golden" / "firmware-replies.json"
+    path = RECORDINGS / "golden" / "firmware-replies.json"
     if not path.is_file():
         return
     for version, sessions in json.loads(path.read_text("utf-8"))["versions"].items():

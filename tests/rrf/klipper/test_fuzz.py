@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.klipper import Kept, World, names, printer_info, server_info
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON
 from . import HOST, host, model_of
@@ -110,7 +111,7 @@ def look(model, at_host, kept):
     return set(shown)
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(st.lists(spoilt_models(), min_size=1, max_size=3), HOSTS)
 def test_spoilt_model_is_served(models, at_host):
     kept = Kept()
@@ -129,7 +130,7 @@ TREES = st.recursive(
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(st.dictionaries(st.sampled_from(READ), TREES, max_size=6), HOSTS)
 def test_any_tree_is_served(model, at_host):
     kept = Kept()

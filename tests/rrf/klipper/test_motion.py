@@ -2,9 +2,10 @@
 
 import pytest
 
+from octoprint_rrfmodel.rrf.card.height_map import HeightMap
 from octoprint_rrfmodel.rrf.klipper import names
 
-from . import Machine, changed, get, model_of, whole, world
+from . import HOST, Machine, changed, get, model_of, whole, world
 
 
 def channel(name, **members):
@@ -296,6 +297,30 @@ def test_bed_mesh(compensation, profile, low, high):
         "mesh_matrix": [[]],
         "profiles": {},
     }
+
+
+HEIGHTS = HeightMap(
+    ("X", "Y"), (15.0, 20.0), (100.0, 175.0), (3, 2), -1.0, ((0.1, None, -0.2), (0.0, 0.3, 0.4))
+)
+
+ROWS = [[0.1, None, -0.2], [0.0, 0.3, 0.4]]
+
+
+@pytest.mark.parametrize(
+    ("heights", "kind", "matrix"),
+    [
+        (HEIGHTS, "mesh", ROWS),
+        (HEIGHTS._replace(axes=("Y", "X")), "mesh", [[0.1, 0.0], [None, 0.3], [-0.2, 0.4]]),
+        (HEIGHTS._replace(axes=("X", "Z")), "mesh", [[]]),
+        (HEIGHTS, "none", [[]]),
+        (None, "mesh", [[]]),
+    ],
+)
+def test_matrix_is_that_of_the_mesh_in_use(heights, kind, matrix):
+    compensation = {"type": kind, "file": "0:/sys/heightmap.csv", "liveGrid": GRID}
+    at = world({"move": {"compensation": compensation}}, HOST._replace(heights=heights))
+    assert get(at, "bed_mesh", "probed_matrix") == matrix
+    assert get(at, "bed_mesh", "mesh_matrix") == matrix
 
 
 RETRACTION = {"length": 0.8, "speed": 35.0, "unretractSpeed": 25.0, "extraRestart": 0.1, "zHop": 1}

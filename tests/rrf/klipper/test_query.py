@@ -203,6 +203,6 @@ def test_what_is_named_twice_is_wanted_once():
     ],
     ids=["objects", "fields of one", "fields of all"],
 )
-def test_too_much_at_once_is_refused(objects):
+def test_row_34_too_much_at_once_is_refused(objects):
     with pytest.raises(ValueError, match="No more than"):
         wanted_of(objects)

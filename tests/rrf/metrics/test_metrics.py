@@ -28,6 +28,7 @@ from octoprint_rrfmodel.rrf.wire.m408 import M408Model
 from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
 from octoprint_rrfmodel.simulator.machines import MACHINES
+from tests.support.examples import some
 from tests.support.places import ROOT
 
 from ..strategies import ANY_JSON
@@ -42,6 +43,7 @@ STATUS = {
     "stale": False,
     "blocked": "streaming",
     "age": 0.4,
+    "ages": {"heat": 0.5},
     "revision": 1234,
     "resets": 2,
     "counters": {
@@ -191,6 +193,7 @@ EXPECTED = {
     "rrf_stale": ("printer", (), 0),
     "rrf_blocked": ("printer", ("streaming",), 1),
     "rrf_age_seconds": ("printer", (), 0.4),
+    "rrf_key_age_seconds": ("printer", ("heat",), 0.5),
     "rrf_warnings": ("printer", (), 2),
     "rrf_warning": ("printer", ("heater_fault_1",), 1),
     "rrf_revisions_total": ("printer", (), 1234),
@@ -638,7 +641,7 @@ def broken(value):
     return st.lists(st.tuples(paths, ANY_JSON), max_size=3).map(replaced)
 
 
-@settings(max_examples=200)
+@settings(max_examples=some(200))
 @given(broken(SMALL), broken(STATUS))
 @example({}, {})
 def test_no_model_and_no_state_is_too_strange(model, status):

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from octoprint_rrfmodel.rrf.model.changes import Subscriptions
 from octoprint_rrfmodel.rrf.model.keys import Key
 from octoprint_rrfmodel.rrf.model.store import ModelStore
+from tests.support.examples import some
 
 from ..independent import same
 from ..strategies import NAMES, OBJECTS
@@ -219,7 +220,7 @@ PATHS = st.builds(
 )
 
 
-@settings(max_examples=200)
+@settings(max_examples=some(200))
 @given(OBJECTS, st.lists(st.tuples(st.booleans(), NAMES, OBJECTS), max_size=4), PATHS)
 def test_told_exactly_when_the_value_is_another(model, replies, path):
     listener = Listener(**model)

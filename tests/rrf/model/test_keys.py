@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from octoprint_rrfmodel.rrf.model.keys import Key, MalformedKey, value_at
 from octoprint_rrfmodel.rrf.model.m409 import answer
 from octoprint_rrfmodel.rrf.model.merge import patched, replaced
+from tests.support.examples import some
 
 from ..independent import same
 from ..strategies import NAMES, OBJECTS
@@ -127,7 +128,7 @@ def is_nothing(value):
     return value is None or (isinstance(value, list) and all(map(is_nothing, value)))
 
 
-@settings(max_examples=300)
+@settings(max_examples=some(300))
 @given(OBJECTS, KEYS)
 def test_values_are_those_of_m409(model, key):
     expected = answer(model, key, "d99vno")["result"]
@@ -170,7 +171,7 @@ def test_touches(key, changes, touches):
     assert Key(key).touches(changes) is touches
 
 
-@settings(max_examples=300)
+@settings(max_examples=some(300))
 @given(OBJECTS, OBJECTS, KEYS, st.sampled_from([patched, replaced]))
 def test_what_is_another_is_touched(old, new, text, merge):
     try:
@@ -180,3 +181,22 @@ def test_what_is_another_is_touched(old, new, text, merge):
     after, changes = merge(old, new)
     if not same(key.value(old), key.value(after)):
         assert key.touches(changes)
+
+
+class Counting(str):
+    """A text that counts the letters that are copied out of it."""
+
+    copied = 0
+
+    def __getitem__(self, place):
+        found = super().__getitem__(place)
+        Counting.copied += len(found)
+        return Counting(found)
+
+
+@pytest.mark.parametrize("piece", [".a", "[0]", "[]", ".a[1][]"])
+def test_a_long_key_is_gone_through_once(piece):
+    text = Counting("a" + piece * 10_000)
+    Counting.copied = 0
+    Key(text)
+    assert Counting.copied < 4 * len(text)

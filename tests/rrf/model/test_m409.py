@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.model.m409 import AXES_SHOWN, ROOT_ARRAY_BYTES, answer, parse_flags
 from octoprint_rrfmodel.rrf.model.marks import MARKS
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON, compact
 
@@ -388,7 +389,7 @@ def test_flags_text_means(text, on, depth, start):
 ALPHABET = st.text(st.sampled_from("ab.[]^#*01 -+\"'°é\n") | st.characters(), max_size=20)
 
 
-@settings(max_examples=200)
+@settings(max_examples=some(200))
 @given(ANY_JSON, ALPHABET, ALPHABET, st.booleans())
 def test_never_raises_and_echoes_what_was_asked(model, key, flags, firmware):
     got = answer(model, key, flags, firmware=firmware)
@@ -397,7 +398,7 @@ def test_never_raises_and_echoes_what_was_asked(model, key, flags, firmware):
     assert ("next" in got) is isinstance(got["result"], list)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(
     st.dictionaries(st.sampled_from("ab"), ANY_JSON),
     st.sampled_from(["a", "a.b", "a[].b", "#a", "b[0]", "", "#"]),

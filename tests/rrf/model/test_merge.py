@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.model.merge import DEEPEST, NestedTooDeep, patched, paths, replaced
+from tests.support.examples import some
 
 from ..independent import differing, overlaid, same
 from ..strategies import NUMBERS, OBJECTS, VALUES
@@ -108,7 +109,7 @@ def shared_where_equal(old, new):
     return all(map(shared_where_equal, old, new))
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(VALUES, VALUES)
 def test_patch_is_what_a_plain_merge_gives(old, new):
     before = copy.deepcopy((old, new))
@@ -119,7 +120,7 @@ def test_patch_is_what_a_plain_merge_gives(old, new):
     assert repr((old, new)) == repr(before), "what is handed in is not changed"
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(VALUES, VALUES)
 def test_replacement_is_what_came(old, new):
     before = copy.deepcopy((old, new))
@@ -130,7 +131,7 @@ def test_replacement_is_what_came(old, new):
     assert repr((old, new)) == repr(before)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(OBJECTS, VALUES)
 def test_merging_once_more_changes_nothing(old, new):
     for merge in (patched, replaced):
@@ -139,7 +140,7 @@ def test_merging_once_more_changes_nothing(old, new):
         assert merge(value, new)[0] is value
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(st.lists(OBJECTS, min_size=1, max_size=5))
 def test_snapshots_stay_as_they_were(patches):
     model, snapshots = {}, []

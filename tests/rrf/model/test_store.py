@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.model.merge import DEEPEST, NestedTooDeep, paths
 from octoprint_rrfmodel.rrf.model.store import ModelStore
+from tests.support.examples import some
 
 from ..independent import differing, overlaid, same
 from ..strategies import OBJECTS, VALUES
@@ -90,7 +91,7 @@ def test_forgetting_is_a_change_only_where_something_was_known(store):
     assert store.revision == 2
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(
     st.lists(
         st.tuples(st.none() | st.sampled_from(["a", "a.b", "Z.a.b"]), OBJECTS | VALUES), max_size=6

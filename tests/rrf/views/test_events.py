@@ -16,6 +16,7 @@ from octoprint_rrfmodel.rrf.views.state_words import MONITORS, STATUSES
 from octoprint_rrfmodel.rrf.wire.line import find_reply
 from octoprint_rrfmodel.rrf.wire.m408 import M408Model
 from octoprint_rrfmodel.simulator.board import Board
+from tests.support.examples import some
 from tests.support.places import ROOT
 
 from ..strategies import ANY_JSON
@@ -431,7 +432,7 @@ MODELS = st.one_of(
 HARMLESS = {*STATUSES, *MONITORS, "unknown"}
 
 
-@settings(max_examples=60)
+@settings(max_examples=some(60))
 @given(st.lists(st.one_of(MODELS, st.sampled_from([FINISHED, CANCELLED, ""])), max_size=6))
 def test_payloads_hold_numbers_and_known_words_alone(sequence):
     names = []
@@ -450,7 +451,7 @@ def test_payloads_hold_numbers_and_known_words_alone(sequence):
         assert names.count(ends) - names.count(begins) <= (ends == "job_finished")
 
 
-@settings(max_examples=30)
+@settings(max_examples=some(30))
 @given(st.lists(MODELS, max_size=4))
 def test_same_model_again_is_no_news(sequence):
     facts = Facts()
@@ -462,7 +463,7 @@ def test_same_model_again_is_no_news(sequence):
         ] == []
 
 
-@settings(max_examples=30)
+@settings(max_examples=some(30))
 @given(st.lists(MODELS, max_size=5))
 def test_changes_follow_one_another(sequence):
     last = {}

@@ -97,6 +97,19 @@ def test_a_model_that_is_not_known_leaves_one_gap_and_nothing_is_lost():
     assert told(history)[1]["heater0.current"] == [20.0, None, 21.0]
 
 
+def test_what_only_another_machine_had_goes_with_it():
+    sensors = [{"lastReading": 41.5, "name": "mcu", "type": "mcutemp"}]
+    history = kept(model(heater(20.0), heater(21.0), heater(22.0), sensors=sensors))
+    history.gap(1001.0)
+    history.connected()
+    # nothing is known of the next one yet
+    history.sample({}, 1003.0)
+    assert "heater2.current" in told(history)[1]
+    other = [{"lastReading": 38.0, "name": "Box", "type": "thermistor"}]
+    history.sample(model(heater(30.0, sensor=0), sensors=other), 1005.0)
+    assert {series.id.partition(".")[0] for series in history.since().series} == {"heater0"}
+
+
 def test_only_what_is_new():
     history = kept(*[model(heater(float(number))) for number in range(4)])
     assert told(history, 1002.0)[0] == [1004.0, 1006.0]

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.views.temperatures import temperatures
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON
 
@@ -129,7 +130,7 @@ SENSORS = [
 
 
 @pytest.mark.parametrize(("sensor", "shown"), SENSORS)
-def test_sensor_that_no_heater_uses_is_shown(sensor, shown):
+def test_row_23_sensor_that_no_heater_uses_is_shown(sensor, shown):
     assert temperatures(heated(analog=[sensor])).others == shown
 
 
@@ -177,7 +178,7 @@ MODELS = st.recursive(
 )
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(st.dictionaries(NAMES, MODELS, max_size=4))
 def test_odd_values_are_harmless(model):
     shown = temperatures(model)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.wire.line import find_reply, without_warning
 from octoprint_rrfmodel.rrf.wire.reply import MalformedReply, ModelReply, StatusReply, decode
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON, VALUES, compact, model_reply
 
@@ -149,7 +150,7 @@ def places(text):
 
 @pytest.mark.parametrize("around", [("", "\n"), (UNDER_VOLTAGE, "\n"), ("", "ok\n")])
 @pytest.mark.parametrize("reply", KINDS.values(), ids=KINDS)
-def test_number_of_the_command_may_stand_anywhere(reply, around):
+def test_row_8_number_of_the_command_may_stand_anywhere(reply, around):
     for numbered in places(reply):
         found = find_reply(around[0] + numbered + around[1])
         assert found is not None, numbered
@@ -212,7 +213,7 @@ REPLIES = st.one_of(
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(AROUND, REPLIES, AROUND)
 @example("", LIVE, "ok {1}")
 @example("", NAN, "ok }")
@@ -223,13 +224,13 @@ def test_whatever_stands_around_a_reply_is_kept(before, reply, after):
     assert after.strip("\0 \t\r\n").rstrip() in found.rest
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(st.sampled_from(["", "Warning: x", "{x}"]), REPLIES, st.sampled_from(["ok", "ok T:20.0"]))
 def test_ok_behind_a_reply_comes_first(before, reply, ok):
     assert find_reply(before + reply + ok + "\n").rest.startswith(ok)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(REPLIES, st.integers(1, 200), st.booleans())
 def test_ok_behind_a_truncated_reply_is_kept(reply, length, has_ok):
     cut = reply[: 11 + length]
@@ -240,7 +241,7 @@ def test_ok_behind_a_truncated_reply_is_kept(reply, length, has_ok):
         assert reply == NO_ROOM or cut == reply
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(st.text() | st.text('{}"key:\\,[]status0ok\0', max_size=60), st.sampled_from(["", *FOUND]))
 def test_search_never_raises(text, name):
     line = FOUND[name][0] if name else ""
@@ -252,7 +253,7 @@ def test_search_never_raises(text, name):
                 decode(found.reply)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(ANY_JSON)
 def test_reply_is_read_as_it_was_written(value):
     text = json.dumps({"key": "", "flags": "f", "result": value}, separators=(",", ":"))

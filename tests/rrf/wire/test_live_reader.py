@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from octoprint_rrfmodel.rrf.model.merge import patched
 from octoprint_rrfmodel.rrf.wire.live_reader import LiveReader
 from octoprint_rrfmodel.rrf.wire.reply import MalformedReply, decode
+from tests.support.examples import some
 
 from ..independent import same
 from ..strategies import VALUES, compact, model_reply
@@ -53,7 +54,7 @@ def read(reader, text):
     return members
 
 
-@settings(max_examples=120)
+@settings(max_examples=some(120))
 @given(successive_results(), st.sampled_from([compact, json.dumps]))
 def test_model_is_the_same_as_with_full_decoding(results, written):
     reader, fast, slow = LiveReader(), {}, {}
@@ -64,7 +65,7 @@ def test_model_is_the_same_as_with_full_decoding(results, written):
         assert same(fast, slow)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(successive_results(), st.data())
 def test_broken_text_is_malformed_or_read_and_harms_nothing(results, data):
     """Texts cut, spoilt or glued in between; what is read after them is right again."""

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from octoprint_rrfmodel.rrf.wire.m408 import M408Model
 from octoprint_rrfmodel.rrf.wire.m408_table import CONFIG_FIELDS, LEGACY, STATUS_FIELDS
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON, VALUES
 
@@ -289,7 +290,7 @@ TREES = st.recursive(
 )
 
 
-@settings(max_examples=60)
+@settings(max_examples=some(60))
 @given(st.lists(st.dictionaries(st.sampled_from(NAMES), TREES, max_size=6), max_size=3))
 def test_no_value_of_whatever_kind_stops_it(replies):
     model = M408Model()

@@ -14,6 +14,7 @@ from octoprint_rrfmodel.rrf.wire.reply import (
     StatusReply,
     decode,
 )
+from tests.support.examples import some
 
 from ..strategies import ANY_JSON, compact, model_reply
 
@@ -135,7 +136,7 @@ def test_characters_come_as_they_are():
     assert decode(model_reply({"name": name})).result == {"name": name}
 
 
-@settings(max_examples=150)
+@settings(max_examples=some(150))
 @given(st.text() | st.text('{}[]":,0.e-+nafiky\\', max_size=60))
 def test_any_text_is_read_or_malformed(text):
     for candidate in (text, '{"key":' + text, '{"status":"I","x":' + text + "}"):
@@ -155,14 +156,14 @@ def finite(value):
     return not isinstance(value, float) or math.isfinite(value)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(ANY_JSON)
 def test_no_number_that_json_lacks_gets_in(value):
     reply = decode(json.dumps({"key": "", "flags": "", "result": value}, separators=(",", ":")))
     assert finite(reply.result)
 
 
-@settings(max_examples=100)
+@settings(max_examples=some(100))
 @given(
     st.dictionaries(
         st.from_regex("[a-zA-Z_.]+", fullmatch=True), st.integers() | st.text(), max_size=4

@@ -6,8 +6,9 @@
 
 from .box import identity_of_box
 from .outcome import Refusal, Situation
+from .row import Command
 from .system import root_of
-from .table import COMMANDS, Command
+from .table import COMMANDS
 from .translation import translate
 
 __all__ = ["COMMANDS", "Command", "Refusal", "Situation", "identity_of_box", "root_of", "translate"]

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Callable
 
 from ...views.machine import Machine, array, mapping
+from ...views.told_box import is_told
 from ...wire.gcode_words import number, quoted
 from .outcome import Request, bad, forbidden
 from .parameters import HUGE, is_number, number_or, sendable, whole_number, within
@@ -111,6 +112,7 @@ def message_box(request: Request) -> Sequence[str]:
         raise bad("box_takes_no_value")
     if wants_value:
         words.append(f"R{{{VALUES[mode](value, box, machine)}}}")
-    if machine.version >= VALUES_SINCE and isinstance(box.get("seq"), int):
-        words.append(f"S{box['seq']}")
+    seq = box.get("seq")
+    if machine.version >= VALUES_SINCE and isinstance(seq, int) and not is_told(seq):
+        words.append(f"S{seq}")
     return [" ".join(words)]

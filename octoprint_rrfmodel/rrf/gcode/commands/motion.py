@@ -9,7 +9,7 @@ from ...wire.gcode_words import axis_word, extrude_line, number
 from .. import forms, operations
 from . import things
 from .outcome import Request, bad, forbidden
-from .parameters import HUGE, is_number, number_or, within
+from .parameters import HUGE, is_number, missing, number_or, within
 
 CLAMPED = 1.0
 """Millimetres to which the firmware cuts a relative baby step without a word (3.5
@@ -110,6 +110,29 @@ def tool_offsets(request: Request) -> Sequence[str]:
     """G10; the other axes keep theirs."""
     values = request.values
     return [f"G10 P{values['tool']} {' '.join(forms.axis_words(values['offsets']))}"]
+
+
+def workplace(request: Request) -> Sequence[str]:
+    """G54 to G59.3, counted from 1 as G10 does."""
+    return [forms.workplace_line(request.values["workplace"])]
+
+
+def set_zero(request: Request) -> Sequence[str]:
+    """G10 L20: where the axes are now is zero in that workplace; the others keep theirs.
+
+    Without one it is the workplace that is chosen, as far as that is known.
+    """
+    values, machine = request.values, request.machine
+    axes = values["axes"] or tuple(things.axes_of(machine) or {})
+    if not axes:
+        raise bad("not_letters", parameter="axes")
+    workplace = values["workplace"]
+    if workplace is None:
+        known = mapping(machine.model.get("move")).get("workplaceNumber")
+        if not isinstance(known, int) or not machine.is_current:
+            raise missing("workplace")
+        workplace = known + 1
+    return [forms.set_zero_line(axes, workplace)]
 
 
 def babystep(request: Request) -> Sequence[str]:

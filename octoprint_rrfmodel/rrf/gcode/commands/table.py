@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Callable, NamedTuple
-
 from ...wire.request import KEY_LENGTH
-from ..forms import SLOT_CODES, TOOL_STATES, Slots
+from ..forms import SLOT_CODES, TOOL_STATES, WORKPLACES, Slots
 from . import box, heat, job, motion, parameters, system, things
-from .outcome import Request
 from .parameters import Parameter
-from .states import NOT_CONNECTED, NOT_RRF, PRINTING, PRINTING_FREELY, PRINTING_OR_PAUSED, State
+from .row import Command, optional
+from .setup_table import SETUP
+from .states import NOT_CONNECTED, NOT_RRF, PRINTING, PRINTING_FREELY, PRINTING_OR_PAUSED
 
 MOST_MILLIMETRES = 10_000.0
 MOST_SPEED = 100_000.0
@@ -23,39 +21,20 @@ MOST_RPM = 1_000_000
 FILAMENT_BYTES = 31
 """Longest name of a filament (3.5 Filament.h)."""
 
-
-class Command(NamedTuple):
-    """One line of the table."""
-
-    name: str
-    parameters: tuple[Parameter, ...]
-    forbidden: tuple[State, ...]
-    """States that forbid it, whatever it is asked with."""
-    lines: Callable[[Request], Sequence[str]]
-    """What goes out; raises ``Refused`` for what depends on several parameters."""
-    source: str
-    """Where the firmware says so."""
-    needs_machine: bool = True
-    """Whether it needs one that is connected and takes commands."""
-
-
 TEMPERATURE = parameters.number()
 PERCENT = Parameter("percent", parameters.number(1, MOST_PERCENT))
 SPEED = parameters.number(1, MOST_SPEED)
-
-
-def _optional(name: str, read: parameters.Read, default: Any = None) -> Parameter:
-    return Parameter(name, read, False, default)
+WORKPLACE = parameters.whole(1, WORKPLACES)
 
 
 def _slot(name: Slots, thing: parameters.Read, states: tuple[str, ...]) -> Command:
     return Command(
         name,
         (
-            _optional("index", thing, 0),
-            _optional("active", TEMPERATURE),
-            _optional("standby", TEMPERATURE),
-            _optional("state", parameters.word(*states)),
+            optional("index", thing, 0),
+            optional("active", TEMPERATURE),
+            optional("standby", TEMPERATURE),
+            optional("state", parameters.word(*states)),
         ),
         (),
         heat.slot_temperatures(name),
@@ -66,7 +45,7 @@ def _slot(name: Slots, thing: parameters.Read, states: tuple[str, ...]) -> Comma
 COMMANDS = (
     Command(
         "refresh",
-        (_optional("key", parameters.text(KEY_LENGTH)),),
+        (optional("key", parameters.text(KEY_LENGTH)),),
         (),
         system.refresh,
         "nothing is sent but what polling sends anyway",
@@ -76,8 +55,8 @@ COMMANDS = (
         "tool_temperatures",
         (
             Parameter("tool", things.tool),
-            _optional("active", parameters.several()),
-            _optional("standby", parameters.several()),
+            optional("active", parameters.several()),
+            optional("standby", parameters.several()),
         ),
         (),
         heat.tool_temperatures,
@@ -115,7 +94,7 @@ COMMANDS = (
     ),
     Command(
         "home",
-        (_optional("axes", things.axes, ()),),
+        (optional("axes", things.axes, ()),),
         (PRINTING_OR_PAUSED,),
         motion.home,
         "3.5 GCodes.cpp, DoHome",
@@ -124,8 +103,8 @@ COMMANDS = (
         "jog",
         (
             Parameter("axes", things.moves),
-            _optional("speed", SPEED),
-            _optional("absolute", parameters.truth, False),
+            optional("speed", SPEED),
+            optional("absolute", parameters.truth, False),
         ),
         (PRINTING,),
         motion.jog,
@@ -144,9 +123,9 @@ COMMANDS = (
     Command(
         "babystep",
         (
-            _optional("axis", things.axis, "Z"),
+            optional("axis", things.axis, "Z"),
             Parameter("amount", parameters.number(-MOST_BABYSTEP, MOST_BABYSTEP)),
-            _optional("absolute", parameters.truth, False),
+            optional("absolute", parameters.truth, False),
         ),
         (),
         motion.babystep,
@@ -165,7 +144,7 @@ COMMANDS = (
         (
             Parameter("spindle", things.spindle),
             Parameter("rpm", parameters.number(0, MOST_RPM)),
-            _optional("direction", parameters.word("forward", "reverse"), "forward"),
+            optional("direction", parameters.word("forward", "reverse"), "forward"),
         ),
         (PRINTING,),
         motion.spindle,
@@ -179,11 +158,25 @@ COMMANDS = (
         "3.5 GCodes2.cpp, SetOrReportOffsets (G10 P)",
     ),
     Command(
+        "workplace",
+        (Parameter("workplace", WORKPLACE),),
+        (PRINTING,),
+        motion.workplace,
+        "3.5 GCodes2.cpp (G54 to G59.3)",
+    ),
+    Command(
+        "set_zero",
+        (optional("axes", things.axes, ()), optional("workplace", WORKPLACE)),
+        (PRINTING,),
+        motion.set_zero,
+        "3.5 GCodes2.cpp (G10 L20)",
+    ),
+    Command(
         "message_box",
         (
             Parameter("action", parameters.word("ok", "cancel")),
-            _optional(box.NAME, box.read_value),
-            _optional("seq", parameters.whole(0, parameters.LARGEST)),
+            optional(box.NAME, box.read_value),
+            optional("seq", parameters.whole(0, parameters.LARGEST)),
         ),
         (),
         box.message_box,
@@ -210,7 +203,7 @@ COMMANDS = (
         "job",
         (
             Parameter("action", parameters.word(*job.JOB_ACTIONS)),
-            _optional("path", parameters.path),
+            optional("path", parameters.path),
         ),
         (),
         job.job,
@@ -220,7 +213,7 @@ COMMANDS = (
         "filament",
         (
             Parameter("action", parameters.word("load", "unload")),
-            _optional("name", parameters.text(FILAMENT_BYTES)),
+            optional("name", parameters.text(FILAMENT_BYTES)),
         ),
         (PRINTING,),
         job.filament,
@@ -256,4 +249,5 @@ COMMANDS = (
         "3.5 GCodes2.cpp:4718",
         needs_machine=False,
     ),
+    *SETUP,
 )

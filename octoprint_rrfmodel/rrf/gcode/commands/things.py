@@ -74,6 +74,15 @@ def _spindles(machine: Machine) -> Sequence[int] | None:
     ]
 
 
+def _boards(machine: Machine) -> Sequence[int] | None:
+    """Return CAN addresses; the main board is 0 wherever it lies."""
+    boards = machine.model.get("boards")
+    if not isinstance(boards, list):
+        return None
+    addresses = [mapping(board).get("canAddress") for board in boards[1:]]
+    return [0, *(address for address in addresses if isinstance(address, int))]
+
+
 def _tools(machine: Machine) -> Sequence[int] | None:
     return sorted(machine.tools) if machine.knows_tools else None
 
@@ -96,6 +105,10 @@ heater = _one_of("heater", _there("heat", "heaters"))
 fan = _one_of("fan", _there("fans"))
 extruder = _one_of("extruder", _there("move", "extruders"))
 spindle = _one_of("spindle", _spindles)
+probe = _one_of("probe", _there("sensors", "probes"))
+output = _one_of("output", _there("state", "gpOut"))
+led_strip = _one_of("strip", _there("ledStrips"))
+board = _one_of("board", _boards)
 bed = _one_of("bed", _slots("bedHeaters"))
 chamber = _one_of("chamber", _slots("chamberHeaters"))
 
