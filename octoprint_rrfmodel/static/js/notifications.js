@@ -1,80 +1,91 @@
-/* What is told once when it begins, and taken back when it is over. */
+/* What is told once when it begins, and taken back when it is over, and what the machine answers. */
 $(function () {
-    /** The command that mends what a warning is about; asks for one permission each. */
-    const NEEDED_FOR = {
-        recover: "PLUGIN_RRFMODEL_CONTROL",
-        fix_settings: "SETTINGS",
-        fix_profile: "SETTINGS"
-    };
+	const TYPES = {fault: "error", warning: "notice"};
 
-    const TYPES = {fault: "error", warning: "notice"};
+	/** Lines of one reply that a notification has room for. */
+	const MOST_LINES = 12;
+	const REPLY_MS = 8000;
+	const ERROR_MS = 20000;
+	const KINDS = [
+		{begins: /^Error:/, type: "error", delay: ERROR_MS},
+		{begins: /^Warning:/, type: "notice", delay: ERROR_MS},
+		{begins: /(?:)/, type: "info", delay: REPLY_MS}
+	];
 
-    function RrfModelNotificationsViewModel(parameters) {
-        const self = this;
-        const core = parameters[0];
-        const words = RRFModel.words;
-        let told = new Map();
+	/** They come with every click, and must not lie on what is clicked next, a stop least of all. */
+	const BELOW = {dir1: "up", dir2: "left", firstpos1: 25, firstpos2: 25};
 
-        self.mayFix = (fix) => !!NEEDED_FOR[fix] && core.may(NEEDED_FOR[fix]);
+	function RrfModelNotificationsViewModel(parameters) {
+		const self = this;
+		const core = parameters[0];
+		let told = new Map();
 
-        self.fix = function (warning) {
-            if (self.mayFix(warning.fix)) core.command(warning.fix);
-        };
+		/** The strip is seen: what stands there isn't told once more. */
+		const isInStrip = ko.pureComputed(() => core.tabIsOpen() && core.pageIsVisible());
 
-        /** What is to be told now: key, text, kind. Advice can wait and stands in the sidebar. */
-        const due = ko.pureComputed(function () {
-            if (!core.mayRead()) return [];
-            const warnings = core.status().warnings || [];
-            // what has paused a print is told with that
-            const told = new Set(
-                warnings.flatMap((warning) => (warning.causes || []).map((cause) => cause.code))
-            );
-            return warnings
-                .filter((warning) => warning.level !== "advice" && !told.has(warning.code))
-                .map((warning) => ({
-                    // why a print is paused may change while it is
-                    key: JSON.stringify([warning.code, warning.values, warning.causes]),
-                    text: RRFModel.warningText(warning),
-                    type: TYPES[warning.level] || "error",
-                    warning: warning
-                }));
-        });
+		/** What is to be told now. Advice can wait and stands in strip and sidebar. */
+		const due = ko.pureComputed(() => core.alerts().filter(row => row.level !== "advice"));
 
-        /** The part of a notification that has the button, for those who may press it. */
-        const confirmation = function (warning) {
-            if (!warning || !self.mayFix(warning.fix)) return {};
-            return {
-                confirm: true,
-                buttons: [
-                    {text: gettext("Later"), click: (notice) => notice.remove()},
-                    {
-                        text: words.fix[warning.fix],
-                        addClass: "btn-primary",
-                        click: function (notice) {
-                            notice.remove();
-                            self.fix(warning);
-                        }
-                    }
-                ]
-            };
-        };
+		/** The part of a notification that has the button, for those who may press it. */
+		const confirmation = function (row) {
+			if (!row.fix) return {};
+			return {
+				confirm: true,
+				buttons: [
+					{text: gettext("Later"), click: notice => notice.remove()},
+					{
+						text: row.fix.text,
+						addClass: "btn-primary",
+						click: function (notice) {
+							notice.remove();
+							core.mend(row);
+						}
+					}
+				]
+			};
+		};
 
-        const tell = (item) =>
-            core.notify(item.text, item.type, {hide: false, confirm: confirmation(item.warning)});
+		const tell = row =>
+			core.notify(row.text, TYPES[row.level] || "error", {
+				hide: false,
+				confirm: confirmation(row)
+			});
 
-        const update = function (items) {
-            const next = new Map();
-            items.forEach(function (item) {
-                next.set(item.key, told.get(item.key) || tell(item));
-            });
-            told.forEach((notice, key) => next.has(key) || notice.remove());
-            told = next;
-        };
-        due.subscribe(update);
-    }
+		/** Who has seen it in the strip knows it, and who opens the strip sees it there. */
+		const update = function () {
+			const next = new Map();
+			due().forEach(row => next.set(row.key, told.has(row.key) ? told.get(row.key) : isInStrip() ? null : tell(row)));
+			told.forEach((notice, key) => !next.has(key) && notice && notice.remove());
+			told = next;
+		};
+		due.subscribe(update);
+		isInStrip.subscribe(function (isSeen) {
+			if (!isSeen) return;
+			told.forEach(function (notice, key) {
+				if (notice) notice.remove();
+				told.set(key, null);
+			});
+		});
 
-    OCTOPRINT_VIEWMODELS.push({
-        construct: RrfModelNotificationsViewModel,
-        dependencies: ["rrfModelViewModel"]
-    });
+		//~~ replies
+
+		core.replies.subscribe(function (lines) {
+			if (core.isShown("console")() || !core.awaitsReplies()) return;
+			const texts = lines.filter(line => line.asked && line.type === "response").map(line => line.message);
+			if (!texts.length) return;
+			const kind = KINDS.find(each => texts.some(text => each.begins.test(text)));
+			const rest = texts.length > MOST_LINES ? ["…"] : [];
+			core.notify(texts.slice(0, MOST_LINES).concat(rest).join("\n"), kind.type, {
+				title: gettext("The machine says"),
+				delay: kind.delay,
+				addclass: "rrfmodel-told",
+				stack: BELOW
+			});
+		});
+	}
+
+	OCTOPRINT_VIEWMODELS.push({
+		construct: RrfModelNotificationsViewModel,
+		dependencies: ["rrfModelViewModel"]
+	});
 });

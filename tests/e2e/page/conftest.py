@@ -5,6 +5,7 @@ modules of a group share a server, and a module's tests the page of each user, w
 back to rest before each of them.
 """
 
+import os
 from importlib.metadata import version
 from pathlib import Path
 
@@ -19,12 +20,45 @@ from . import SECONDS, board_value, open_view
 from .rest import bring_to_rest
 from .wizard import FIELDS, PROFILE, command
 
-HERE = Path(__file__).parent
+HERE = f"{Path(__file__).parent}{os.sep}"
 
 GROUPS = (
-    {"test_box", "test_data", "test_emergency", "test_notifications", "test_sidebar"},
-    {"test_chart", "test_heat", "test_machine", "test_machine_parts", "test_model", "test_spindle"},
-    {"test_everyone", "test_job", "test_setup", "test_wizard"},
+    {
+        "test_box",
+        "test_chart",
+        "test_data",
+        "test_emergency",
+        "test_heat",
+        "test_model",
+        "test_notifications",
+        "test_now",
+        "test_sidebar",
+        "test_strip",
+    },
+    {
+        "test_answers",
+        "test_bed",
+        "test_console",
+        "test_every_control",
+        "test_jobs_counted",
+        "test_keyboard",
+        "test_machine",
+        "test_machine_parts",
+        "test_panels",
+        "test_spindle",
+    },
+    {
+        "test_everyone",
+        "test_job",
+        "test_job_controls",
+        "test_job_idle",
+        "test_old_firmware",
+        "test_setup",
+        "test_streamed",
+        "test_wide",
+        "test_wizard",
+        "test_words",
+    },
 )
 """Modules that run on one worker, and so on one server; each group takes about as long."""
 
@@ -33,7 +67,7 @@ GROUPS = (
 def pytest_collection_modifyitems(items):
     """Keep each group's tests on one worker."""
     for item in items:
-        if HERE in item.path.parents:
+        if str(item.path).startswith(HERE):
             number = next(n for n, group in enumerate(GROUPS) if item.path.stem in group)
             # the few that run in 1.11 are worth one server
             name = "page" if version("OctoPrint").startswith("1.") else f"page-{number}"
@@ -120,7 +154,7 @@ def page_errors(heard):
 
 
 @pytest.fixture(scope="module")
-def kept(context_of, shared_server, server, heard):
+def kept(context_of, server):
     """The pages by user that the module's tests find open."""
     pages = {}
     yield pages

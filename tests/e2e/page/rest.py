@@ -14,11 +14,15 @@ FORGET = """() => {
     document.querySelectorAll("style.of-a-test").forEach((style) => style.remove());
     if (document.activeElement) document.activeElement.blur();
 
-    views.rrfModelMachineViewModel.jogStep(1);
+    core.isWide(false);
     views.rrfModelMachineViewModel.jogSpeed(6000);
-    views.rrfModelMachineViewModel.extrudeLength(10);
-    views.rrfModelMachineViewModel.extrudeSpeed(300);
-    views.rrfModelJobViewModel.allLayers(true);
+    views.rrfModelMachineViewModel.extrudeSpeed(5);
+    views.rrfModelMachineViewModel.macroFilter("");
+    views.rrfModelMachineViewModel.showsAllExtruders(false);
+    Object.values(views.rrfModelMachinePartsViewModel.folds).forEach((fold) => fold.isOpen(false));
+    views.rrfModelJobViewModel.layers.all(true);
+    views.rrfModelJobViewModel.card.forget();
+    views.rrfModelJobViewModel.past.all(false);
     const chart = views.rrfModelChartViewModel;
     chart.span(15 * 60);
     if (chart.isHeld()) chart.hold();
@@ -28,6 +32,7 @@ FORGET = """() => {
     tree.onlyLive(false);
     tree.openAll(false)();
     window.location.hash = "#tab_plugin_rrfmodel/machine";
+    window.scrollTo(0, 0);
 }"""
 
 LEFT = """() => {

@@ -58,7 +58,7 @@ def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
     ask(board, 'P"Wait" S0 T300')
     wait_text(part(box, "box-message"), "Wait")
     expect(part(box, "box-time")).to_have_text(re.compile(r"^Closes by itself in \d+ s$"))
-    expect(box.locator("button:visible")).to_have_text(["Put aside"])
+    expect(box.locator("button:visible")).to_have_text(["Later"])
     assert 1 <= int(re.findall(r"\d+", part(box, "box-time").inner_text())[0]) <= 300
     # its time is nearly over at once
     board.board.speed = 300
@@ -175,6 +175,36 @@ def test_put_aside_and_answered_elsewhere(page, box, server, board):
     expect(box).to_be_visible()
 
 
+@pytest.mark.parametrize(
+    ("parameters", "answer"),
+    [("S2", "M292 P0"), ("S3", "M292 P0"), ('S4 K{"one", "two"} F1', "R{1}")],
+    ids=["ok", "ok or cancel", "choices"],
+)
+def test_enter_confirms_and_the_focus_goes_back(page, box, server, board, parameters, answer):
+    came_from = page.locator("#rrfmodel_views [data-test=view-machine]")
+    came_from.focus()
+    ask(board, f'P"Ready?" {parameters}')
+    wait_text(part(box, "box-message"), "Ready?")
+    expect(box.locator("button:visible").last).to_be_enabled()
+    page.keyboard.press("Enter")
+    assert is_closed(server, board, box)
+    assert answer in sent(server)[-1]
+    expect(came_from).to_be_focused()
+
+
+def test_enter_that_is_held_down_answers_nothing(page, box, server, board):
+    ask(board, 'P"Ready?" S2')
+    wait_text(part(box, "box-message"), "Ready?")
+    expect(part(box, "box-ok")).to_be_enabled()
+    before = len(sent(server))
+    page.evaluate(
+        """() => document.activeElement.dispatchEvent(
+            new KeyboardEvent("keydown", {key: "Enter", bubbles: true, repeat: true}))"""
+    )
+    helpers.wait_polls(server, 1)
+    assert len(sent(server)) == before
+
+
 def test_what_can_not_be_cancelled_stays(page, box, server, board):
     ask(board, 'P"Read this" S2')
     wait_text(part(box, "box-message"), "Read this")
@@ -219,6 +249,7 @@ def test_values_within_limits(page, box, server, board, parameters, wrong, right
     wait_text(part(box, "box-message"), "How much?")
     field = part(box, "box-value")
     expect(field).to_have_value(re.compile("^(4|1|abc)$"))
+    expect(field).to_be_focused()
     before = len(sent(server))
     for value in wrong:
         field.fill(value)
@@ -228,10 +259,34 @@ def test_values_within_limits(page, box, server, board, parameters, wrong, right
         page.evaluate("OctoPrint.coreui.viewmodels.rrfModelBoxViewModel.error('')")
     helpers.wait_polls(server, 1)
     assert len(sent(server)) == before
-    field.fill(right)
-    field.press("Enter")
+    # what is typed takes the place of what stood there, without a pointer
+    field.select_text()
+    page.keyboard.type(right)
+    page.keyboard.press("Enter")
     assert is_closed(server, board, box)
     assert goes_out in sent(server)[-1]
+
+
+def test_a_value_by_keyboard_alone(page, box, server, board):
+    ask(board, 'P"How much?" S5 L1 H9 F4 J1')
+    wait_text(part(box, "box-message"), "How much?")
+    expect(part(box, "box-value")).to_be_focused()
+    # keys that were meant for what was there before change nothing
+    expect(part(box, "box-ok")).to_be_enabled()
+    page.keyboard.type("8")
+    expect(part(box, "box-value")).to_have_value("8")
+    page.keyboard.press("Enter")
+    assert is_closed(server, board, box)
+    assert "8" in sent(server)[-1]
+
+
+def test_a_value_is_cancelled_by_escape(page, box, server, board):
+    ask(board, 'P"How much?" S5 L1 H9 F4 J1')
+    wait_text(part(box, "box-message"), "How much?")
+    expect(part(box, "box-cancel")).to_be_enabled()
+    page.keyboard.press("Escape")
+    assert is_closed(server, board, box)
+    assert "P1" in sent(server)[-1]
 
 
 def test_closes_when_answered_elsewhere_and_the_next_one_comes(box, server, board):
@@ -274,4 +329,87 @@ def test_text_of_the_printer_is_text(box, server, board, page_errors):
     wait_text(part(box, "box-message"), MARKUP)
     wait_text(part(box, "box-choice").first, MARKUP)
     assert box.locator("img").count() == 0
+    assert own_errors(page_errors) == []
+
+
+def test_tags_of_a_macro_are_shown_and_its_links_lead_to_pages(box, board, page_errors):
+    text = (
+        "Insert <b>PLA</b><br>see <a href='https://example.org/a?b=1'>this</a> &amp; wait 5 &deg;C"
+    )
+    ask(board, f'P"{text}" R"<i>Filament</i> 1" S2')
+    wait_text(part(box, "box-message"), "Insert PLA")
+    expect(part(box, "box-message")).to_have_text("Insert PLAsee this & wait 5 °C")
+    expect(part(box, "box-title")).to_have_text("Filament 1")
+    assert part(box, "box-message").evaluate("(element) => element.innerHTML") == (
+        "Insert <b>PLA</b><br>see "
+        '<a href="https://example.org/a?b=1" target="_blank" rel="noopener noreferrer">this</a>'
+        " &amp; wait 5 °C"
+    )
+    assert own_errors(page_errors) == []
+
+
+HOSTILE = {
+    "<script>window.hit = 1</script>x": "window.hit = 1x",
+    "x<img src=x onerror='window.hit=1'>y": "xy",
+    "<svg/onload=window.hit=1>": "<svg/onload=window.hit=1>",
+    "<b onclick='window.hit=1' style='position:fixed'>b</b>": "b",
+    "<a href='javascript:window.hit=1'>a</a>": "a",
+    "<a href=' java\tscript:window.hit=1'>a</a>": "a",
+    "<a href='&#106;avascript:window.hit=1'>a</a>": "a",
+    "<a href='data:text/html,<script>1</script>'>a</a>": None,
+    "<a href='/api/logout'>a</a>": "a",
+    "<a href='//example.org'>a</a>": "a",
+    "<a href='http://example.org/' onmouseover='window.hit=1'>a</a>": "a",
+    "<a href='http://x' onclick=1><a href='http://y'>a</a></a>": "a",
+    "&lt;img src=x onerror=window.hit=1&gt;": "<img src=x onerror=window.hit=1>",
+    "&#60;b&#62; &#1114112; &#0; &bogus;": "<b> &#1114112; &#0; &bogus;",
+    "&constructor; &#x3c;": "&constructor; <",
+    "a < b and c > d": "a < b and c > d",
+    "<filename> and <0.2>": "<filename> and <0.2>",
+    "</b></a></p>": "</b></a></p>",
+    "<b><i><b>x": "x",
+    "<b" * 4000: "<b" * 4000,
+    "<b>" * 4000 + "x": "x",
+    "<i>" + "<a href='http://x'>" * 2000 + "x": "x",
+    "<b " + " href='" * 4000: None,
+    "a<p>b</p>c": "abc",
+    "<p>a</p>": "a",
+    "<<b>>x": "<>x",
+    "<scr<b>ipt>window.hit=1</scr</b>ipt>": "<script>window.hit=1</script>",
+    "": "",
+}
+"""Texts of a macro, and what of them is to be read; without one it is only to be harmless."""
+
+
+def test_hostile_texts_become_text(page, page_errors):
+    found = page.evaluate(
+        """(texts) => texts.map(function (text) {
+            const place = document.createElement("div");
+            place.append(RRFModel.markup(text));
+            document.body.append(place);
+            const all = Array.from(place.querySelectorAll("*"));
+            const depth = (each) => (each === place ? 0 : 1 + depth(each.parentNode));
+            const result = {
+                text: place.textContent,
+                tags: all.map((each) => each.localName),
+                attributes: all.flatMap((each) => each.getAttributeNames()),
+                links: all.filter((each) => each.href).map((each) => each.protocol),
+                depth: Math.max(0, ...all.map(depth)),
+                plain: RRFModel.plainText(text),
+            };
+            all.forEach((each) => each.dispatchEvent(new MouseEvent("mouseover")));
+            place.remove();
+            return result;
+        })""",
+        list(HOSTILE),
+    )
+    for text, wanted, seen in zip(HOSTILE, HOSTILE.values(), found):
+        assert set(seen["tags"]) <= {"b", "i", "a", "br"}, text
+        assert set(seen["attributes"]) <= {"href", "target", "rel"}, text
+        assert set(seen["links"]) <= {"http:", "https:"}, text
+        assert seen["depth"] <= 3, text
+        if wanted is not None:
+            assert seen["text"] == wanted
+            assert seen["plain"].replace("\n", "") == wanted
+    assert page.evaluate("window.hit") is None
     assert own_errors(page_errors) == []

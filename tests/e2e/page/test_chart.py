@@ -115,6 +115,22 @@ def test_every_heater_is_drawn_from_what_the_server_kept(page, server, view, pag
     assert own_errors(page_errors) == []
 
 
+def test_what_the_server_keeps_no_longer_is_not_shown(page, view):
+    """Another machine's heaters are none of this one's."""
+    page.evaluate(
+        """() => {
+            const kept = OctoPrint.coreui.viewmodels.rrfModelViewModel.history;
+            const like = kept.series.get("heater0.current");
+            const other = {id: "heater9.current", number: 9, values: like.values.slice()};
+            kept.series.set(other.id, Object.assign({}, like, other));
+            kept.revision(kept.revision() + 1);
+        }"""
+    )
+    expect(row(view, "heater9")).to_have_count(1)
+    expect(row(view, "heater9")).to_have_count(0, timeout=30_000)
+    expect(row(view, "heater0")).to_have_count(1)
+
+
 def test_goes_on_while_it_is_open(page, view):
     before = page.evaluate(RANGE)[1]
     begin, end = wait_range(page, lambda begin, end: end >= before + 4)
@@ -208,7 +224,7 @@ def test_text_of_the_printer_is_text(view, board, page_errors):
 def test_nothing_is_asked_for_while_it_is_hidden(page, view):
     asked = []
     page.on("request", lambda request: asked.append(request.url))
-    page.locator("[data-test=view-machine]").click()
+    page.locator("[data-test=view-model]").click()
     expect(part(view, "plot")).to_be_hidden()
     # a question that was under way, and its answer
     page.evaluate(WHEN_ANSWERED)

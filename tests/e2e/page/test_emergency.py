@@ -51,7 +51,7 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     page.locator(CONFIRM).click()
     server.wait_for(lambda: board.board.is_halted, 45, "the machine to be halted")
     # the way back is offered
-    fix = page.locator("[data-test=rrfmodel-sidebar] [data-test=fix]")
+    fix = part(page, "strip-fix")
     fix.filter(has_text="Restart the machine").click(timeout=PATIENCE_MS)
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
     helpers.wait_ready(server, 90)

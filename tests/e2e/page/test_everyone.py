@@ -1,16 +1,21 @@
 """The page for everyone: assistive technology, keyboard, dark themes, narrow screens, addresses."""
 
+import json
+import re
+
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
+from octoprint_rrfmodel.simulator.device.sample import SAMPLE_FILES, SAMPLE_FOLDERS
 from tests.support.basedir import ADMIN, READER
 from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.places import ROOT
 
 from .. import helpers
-from . import SECONDS, both_hosts, open_view, own_errors, part, show_view, styled
+from . import SECONDS, both_hosts, heat_row, open_view, own_errors, part, show_view, styled
 
-VIEWS = ("machine", "job", "chart", "model")
+VIEWS = ("machine", "job", "chart", "console", "model")
 
 SERIOUS = ("serious", "critical")
 
@@ -134,28 +139,32 @@ def test_everything_can_be_reached_by_keyboard(page):
     region = show_filled(page, "machine")
     part(region, "home-all").focus()
     seen = set()
-    for _ in range(40):
+    for _ in range(60):
         page.keyboard.press("Tab")
         seen.add(page.evaluate("document.activeElement.getAttribute('data-test')"))
-    assert {"step", "home", "plus", "minus", "go"} <= seen
+    assert {"home", "jog", "plus", "minus", "go", "extrude", "slider"} <= seen
 
 
 def test_a_hidden_tab_costs_nothing(page, server, board):
-    show_filled(page, "machine")
+    # what was asked for while it was seen has come
+    macros = part(show_filled(page, "machine"), "macro")
+    expect(macros.first).to_be_enabled(timeout=PATIENCE_MS)
     open_tab(page, "#term")
     page.evaluate("""() => {
-        window.changes = 0;
-        new MutationObserver(found => window.changes += found.length).observe(
+        window.changes = [];
+        const note = ({target}) =>
+            window.changes.push((target.outerHTML || target.data).slice(0, 150));
+        new MutationObserver((found) => found.forEach(note)).observe(
             document.querySelector('#tab_plugin_rrfmodel'),
             {subtree: true, childList: true, attributes: true, characterData: true});
     }""")
     board.board.execute("M568 P0 S77 A2", channel="http")
     helpers.wait_value(server, "heat.heaters[1].active", 77, 45)
     helpers.wait_polls(server, 4)
-    assert page.evaluate("window.changes") == 0
+    assert page.evaluate("window.changes") == []
     # and is up to date when it is shown again
     open_tab(page, "#tab_plugin_rrfmodel/machine")
-    active = part(part(page.locator("#rrfmodel_machine"), "tool").first, "active")
+    active = part(heat_row(page.locator("#rrfmodel_machine"), 1, tool=0), "active")
     expect(active).to_have_value("77")
     board.board.execute("M568 P0 S0 A0", channel="http")
 
@@ -192,6 +201,68 @@ def test_the_page_speaks_the_language(own_page, server, language, page_errors):
     expect(part(page, "home-all")).to_contain_text(tab)
     assert settings in page.content()
     assert own_errors(page_errors) == []
+
+
+WORD = re.compile(r"[^\W\d_]{3,}")
+
+SAID = """(regions) => regions.flatMap(function (selector) {
+    const region = document.querySelector(selector);
+    region.querySelectorAll("details").forEach((each) => (each.open = true));
+    const said = [region.innerText];
+    region.querySelectorAll("*").forEach(function (each) {
+        for (const name of ["title", "aria-label", "placeholder"])
+            if (each.getAttribute(name)) said.push(each.getAttribute(name));
+    });
+    return said;
+}).join(" ")"""
+"""All that somebody may read or be read to."""
+
+OF_THE_MACHINE = ".rrfmodel-console { display: none; }"
+"""What machine and people have said."""
+
+CROSSED = """(region) => Array.from(
+        region.querySelectorAll(".rrfmodel-heat, .rrfmodel-axis-row, .rrfmodel-fan")
+    ).filter((each) => each.offsetHeight > 40).map((each) => each.outerHTML.slice(0, 200))"""
+"""Rows of Machine that had no room for their words in a line."""
+
+
+def words(text):
+    return set(WORD.findall(text.lower()))
+
+
+def english_alone(language):
+    """Return the words of the page that its other language has not."""
+    pofile = pytest.importorskip("babel.messages.pofile")
+    path = ROOT / "octoprint_rrfmodel" / "translations" / language / "LC_MESSAGES" / "messages.po"
+    with path.open("rb") as file:
+        messages = [message for message in pofile.read_po(file) if message.id]
+    known = words(" ".join(message.string for message in messages))
+    return words(" ".join(message.id for message in messages)) - known
+
+
+def test_no_english_word_is_among_the_german(own_page, server, board):
+    page = own_page
+    open_octoprint(page, server, ADMIN, "/?l10n=de#tab_plugin_rrfmodel/machine")
+    # what a machine and its files are called, OctoPrint's too, and G-code, are no words of the page
+    with board.board.lock:
+        names = words(json.dumps(board.board.data))
+    jobs = server.get("/plugin/rrfmodel/jobs").json()["jobs"]
+    names |= words(" ".join([*SAMPLE_FOLDERS, *SAMPLE_FILES, *(job["name"] for job in jobs)]))
+    english = english_alone("de") - names - {"octoprint", "echo"}
+    assert {"home", "files"} <= english
+    parts = page.locator("#rrfmodel_machine_parts")
+    expect(part(parts, "fold-boards")).to_be_visible(timeout=PATIENCE_MS)
+    for head in parts.locator("[data-test^=fold-]:visible").all():
+        head.click()
+    found = {}
+    for view in ("machine", "job", "chart", "console"):
+        region = show_view(page, view)
+        if view == "machine":
+            expect(part(region, "macro")).not_to_have_count(0, timeout=PATIENCE_MS)
+            assert region.evaluate(CROSSED) == []
+        with styled(page, OF_THE_MACHINE):
+            found[view] = words(page.evaluate(SAID, OWN)) & english
+    assert found == {view: set() for view in found}
 
 
 def test_values_are_explained_in_the_language(server):

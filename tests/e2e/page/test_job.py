@@ -1,6 +1,7 @@
 """The sub-view Job: what it tells of the board's own print, and each control used on the board."""
 
 import base64
+import re
 
 import pytest
 from playwright.sync_api import expect
@@ -22,6 +23,8 @@ from . import (
 )
 
 MARKUP = "<img src=x onerror=alert(1)>"
+
+THUMBNAILS = "**/rrfmodel/thumbnail?*"
 
 PICTURE = bytes.fromhex(
     "89504e470d0a1a0a0000000d49484452000000100000001008000000003a98a0bd"
@@ -104,7 +107,7 @@ def confirm(page):
 
 @both_hosts
 def test_tells_of_file_progress_and_times(view, server):
-    expect(part(view, "file")).to_have_text("parts/clip.gcode", timeout=PATIENCE_MS)
+    expect(part(view, "job-name")).to_have_text("parts/clip.gcode", timeout=PATIENCE_MS)
     wait_text(part(view, "status"), "Printing")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     wait_text(part(view, "filament"), "1.50 m + 0.25 m")
@@ -112,12 +115,13 @@ def test_tells_of_file_progress_and_times(view, server):
     wait_text(part(view, "printTime"), "0:02:05")
     wait_text(part(view, "simulatedTime"), "0:02:10")
     wait_text(part(view, "layer"), "/ 60")
-    for name in ("left-file", "left-slicer", "left-simulation", "duration", "warmUp", "paused"):
+    for name in ("left-file", "left-slicer", "left-simulation", "spent-warmUp", "spent-paused"):
         wait_text(part(view, name), "0:0")
+    assert re.match(r"ends .*\d:\d\d.*, left 0:0\d:\d\d$", part(view, "job-ends").inner_text())
     before = part(view, "duration").inner_text()
     expect(part(view, "duration")).not_to_have_text(before, timeout=PATIENCE_MS)
     assert float(part(view, "progress").get_attribute("aria-valuenow")) >= 0
-    wait_text(part(view, "percent"), "%")
+    wait_text(part(view, "job-percent"), "%")
 
 
 def test_layers_as_a_chart(own_page, server, idle):
@@ -176,7 +180,7 @@ def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, vie
     page.locator(".modal.in").wait_for()
     end_job(server, board)
     begin(server, board, "0:/gcodes/parts/other.gcode")
-    wait_text(part(view, "file"), "other.gcode")
+    wait_text(part(view, "job-name"), "other.gcode")
     before = len(board.board.received())
     confirm(page)
     expect(page.locator(".ui-pnotify-text").last).to_contain_text("another print")
@@ -189,14 +193,28 @@ def test_objects(page, view, server, board):
     objects = part(view, "object")
     expect(objects).to_have_count(2, timeout=PATIENCE_MS)
     expect(part(objects, "name")).to_have_text(list(NAMES))
-    wait_text(objects.nth(0), "X 80…120")
+    expect(objects.nth(0)).to_have_attribute("title", re.compile("X 80…120"))
     part(objects.nth(1), "object-cancel").click()
+    # by the name of its row: one wrong guess costs a part
+    expect(page.locator(".modal.in h3")).to_have_text(f"Cancel object {NAMES[1]}?")
+    expect(page.locator(".modal.in .modal-body")).to_contain_text(f"{NAMES[1]} isn't printed")
     confirm(page)
     wait_board(server, board, "job.build.objects[1].cancelled", True)
-    wait_text(part(objects.nth(1), "state"), "left out")
+    wait_text(part(objects.nth(1), "state"), "cancelled")
     part(objects.nth(1), "object-resume").click()
     wait_board(server, board, "job.build.objects[1].cancelled", False)
     expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=PATIENCE_MS)
+    # and by the map of the bed
+    map_of = part(view, "map-object")
+    expect(map_of).to_have_count(2)
+    expect(map_of.locator("text")).to_have_text(list(NAMES))
+    map_of.nth(0).press("Enter")
+    expect(page.locator(".modal.in h3")).to_have_text(f"Cancel object {NAMES[0]}?")
+    confirm(page)
+    wait_board(server, board, "job.build.objects[0].cancelled", True)
+    expect(part(objects.nth(0), "state")).to_have_text("cancelled", timeout=PATIENCE_MS)
+    map_of.nth(0).press("Enter")
+    wait_board(server, board, "job.build.objects[0].cancelled", False)
 
 
 def print_to_its_end(server, board):
@@ -225,6 +243,11 @@ def test_last_job_is_started_again_and_simulated(page, server, idle):
     reach_its_end(server, idle)
     part(view, "simulate-last").click(timeout=PATIENCE_MS)
     server.wait_for(lambda: idle.board.job.is_simulation, 45, "the simulation")
+    # and it is told as one, with its result
+    helpers.wait_value(server, "job.lastFileName", "0:/gcodes/parts/clip.gcode", 45)
+    expect(part(view, "last-simulated")).to_be_visible(timeout=30_000)
+    expect(part(view, "last")).to_contain_text("Time by simulation")
+    expect(part(view, "last")).not_to_contain_text("warming up")
 
 
 def select(board):
@@ -244,16 +267,17 @@ def test_nothing_is_started_without_the_motors_supply(page, server, idle, name, 
     expect(part(view, name)).to_be_visible(timeout=PATIENCE_MS)
     idle.board.inject("vin_off")
     try:
-        expect(part(view, name)).to_be_hidden(timeout=PATIENCE_MS)
+        expect(part(view, name)).to_be_disabled(timeout=PATIENCE_MS)
+        expect(part(view, name)).to_have_attribute("title", re.compile("no supply voltage"))
     finally:
         idle.board.clear("vin_off")
-    expect(part(view, name)).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, name)).to_be_enabled(timeout=PATIENCE_MS)
 
 
 def test_selected_file_is_started(page, server, idle):
     select(idle)
     view = show_view(page, "job")
-    wait_text(part(view, "file"), "parts/clip.gcode")
+    wait_text(part(view, "job-name"), "parts/clip.gcode")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     expect(part(view, "picture")).to_be_visible(timeout=PATIENCE_MS)
     # nothing of it has been printed
@@ -268,7 +292,7 @@ def test_a_cancelled_print_is_started_again(page, server, idle):
     begin(server, idle)
     end_job(server, idle)
     view = show_view(page, "job")
-    wait_text(part(view, "file"), "parts/clip.gcode")
+    wait_text(part(view, "job-name"), "parts/clip.gcode")
     expect(part(view, "last")).to_have_count(0, timeout=PATIENCE_MS)
     part(view, "start").click(timeout=PATIENCE_MS)
     confirm(page)
@@ -298,10 +322,11 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
     view = show_view(page, "job")
-    expect(part(view, "file")).to_have_text("odd <b>&amp.gcode", timeout=PATIENCE_MS)
+    expect(part(view, "job-name")).to_have_text("odd <b>&amp.gcode", timeout=PATIENCE_MS)
     wait_text(part(view, "object").nth(0), MARKUP)
-    assert view.locator("img:not([data-test=picture]), b").count() == 0
+    assert view.locator("img:visible:not([data-test=picture]), b").count() == 0
     part(view.locator("[data-test=object]").nth(0), "object-cancel").click()
+    expect(page.locator(".modal.in .modal-body")).to_contain_text(MARKUP)
     assert page.locator(".modal.in img").count() == 0
     page.locator(".modal.in .modal-footer [data-dismiss=modal]").click()
     assert own_errors(page_errors) == []
@@ -310,7 +335,7 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
 def test_a_reader_sees_and_can_do_nothing(reader_page, server, idle, page_errors):
     begin(server, idle)
     view = show_view(reader_page, "job")
-    wait_text(part(view, "file"), "clip.gcode")
+    wait_text(part(view, "job-name"), "clip.gcode")
     for name in ("pause", "cancel"):
         expect(part(view, name)).to_be_disabled()
     expect(part(view, "object-cancel").first).to_be_disabled(timeout=PATIENCE_MS)
@@ -334,9 +359,9 @@ def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle)
     page = fresh_page
     begin(server, idle)
     page.clock.install()
-    # the machine had no time for it
-    page.route("**/rrfmodel/thumbnail?*", lambda route: route.fulfill(status=504), times=1)
-    with page.expect_response("**/rrfmodel/thumbnail?*") as refused:
+    # the machine has no time for it
+    page.route(THUMBNAILS, lambda route: route.fulfill(status=504))
+    with page.expect_response(THUMBNAILS) as refused:
         view = open_view(page, server, ADMIN, "job")
     assert refused.value.status == 504
     picture = part(view, "picture")
@@ -345,7 +370,8 @@ def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle)
             new Promise(resolve => image.addEventListener("error", () => resolve()))"""
     )
     expect(picture).to_be_hidden()
-    with page.expect_response("**/rrfmodel/thumbnail?*") as answered:
+    with page.expect_response(lambda answer: "thumbnail" in answer.url and answer.ok) as answered:
+        page.unroute(THUMBNAILS)
         page.clock.fast_forward(31_000)
     assert answered.value.body() == PICTURE
     expect(picture).to_be_visible()

@@ -6,15 +6,14 @@ from playwright.sync_api import expect
 from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
-from . import SECONDS, board_value, part, show_view, type_number, wait_board, wait_text
+from . import SECONDS, board_value, home, part, show_view, type_number, wait_board, wait_text
 
 BOARD = {"machine": "cnc", "speed": 20}
 
 
 @pytest.fixture
 def view(page, board):
-    show_view(page, "machine")
-    return page.locator("#rrfmodel_machine_parts")
+    return show_view(page, "machine")
 
 
 @pytest.fixture(autouse=True)
@@ -81,3 +80,51 @@ def test_direction_that_is_chosen_before_the_last_speed_is_answered(page, view, 
     type_number(part(spindle, "rpm"), 6000)
     wait_board(server, board, "spindles[0].active", 6000)
     assert board_value(board, "spindles[0].state") == "reverse"
+
+
+def test_a_router_has_workplaces_and_nothing_of_a_printer(page, view, server, board):
+    for name in ("heat", "extrusion", "filament", "mesh-menu", "babystep", "fans"):
+        assert not part(view, name).filter(visible=True).count(), name
+    text = view.inner_text() + page.locator("#rrfmodel_machine_parts").inner_text()
+    assert not [word for word in ("Heat", "Tools", "Filament", "Unload", "Probe") if word in text]
+    place = part(view.locator("[data-test=axis-row][data-axis=X]"), "position")
+    assert float(place.evaluate("element => parseFloat(getComputedStyle(element).fontSize)")) > 20
+    home(server, board)
+    board.board.execute("G1 X40 Y30 F12000", channel="http")
+    helpers.wait_value(server, "move.axes[0].machinePosition", 40, SECONDS)
+    part(view, "workplace").select_option("G55")
+    wait_board(server, board, "move.workplaceNumber", 1)
+    part(view.locator("[data-test=axis-row][data-axis=X]"), "set-zero").click()
+    wait_board(server, board, "move.axes[0].workplaceOffsets[1]", 40)
+    expect(place).to_have_text("0.00", timeout=PATIENCE_MS)
+    part(view, "set-all-zero").click()
+    wait_board(server, board, "move.axes[1].workplaceOffsets[1]", 30)
+    board.board.execute("G10 L2 P2 X0 Y0 Z0", channel="http")
+    board.board.execute("G59.3", channel="http")
+    expect(part(view, "workplace")).to_have_value("8", timeout=PATIENCE_MS)
+    board.board.execute("G54", channel="http")
+    helpers.wait_value(server, "move.workplaceNumber", 0, SECONDS)
+
+
+DELTA = """() => {
+    const core = OctoPrint.coreui.viewmodels.rrfModelViewModel;
+    const tell = core.onDataUpdaterPluginMessage;
+    core.onDataUpdaterPluginMessage = () => undefined;
+    const told = (move) =>
+        tell("rrfmodel", {type: "model", changed: {move: move}, status: core.status()});
+    const move = core.latest.move;
+    const find = () => document.querySelectorAll("#rrfmodel_machine [data-test=home]").length;
+    const before = find();
+    told(Object.assign({}, move, {kinematics: {name: "delta"}}));
+    return new Promise((done) => setTimeout(done)).then(function () {
+        const seen = [before, find()];
+        told(move);
+        core.onDataUpdaterPluginMessage = tell;
+        return seen;
+    });
+}"""
+
+
+def test_towers_of_a_delta_home_together(page, view):
+    expect(part(view, "home")).to_have_count(3, timeout=PATIENCE_MS)
+    assert page.evaluate(DELTA) == [3, 0]

@@ -51,15 +51,13 @@ def test_all_is_true_or_false(server, wrong):
     assert server.get(PROFILE).json() == before
 
 
-def test_the_wizard_leads_through_by_keyboard(own_page, server, page_errors):
+def test_the_wizard_by_keyboard(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
     expect(wizard).to_be_visible(timeout=PATIENCE_MS)
-    expect(part(wizard, "wizard-settings").locator("h4")).to_be_focused()
-    part(wizard, "wizard-next").press("Enter")
-    expect(part(wizard, "wizard-profile").locator("h4")).to_be_focused()
-    part(wizard, "wizard-back").press("Enter")
-    expect(part(wizard, "wizard-settings").locator("h4")).to_be_focused()
+    expect(wizard.locator("h4")).to_be_focused()
+    own_page.keyboard.press("Tab")
+    expect(part(wizard, "wizard-setup")).to_be_focused()
     own_page.keyboard.press("Escape")
     expect(wizard).to_be_hidden()
     assert helpers.status(server)["first_run"] is True
@@ -133,6 +131,10 @@ def test_settings_are_set_and_taken_back(own_page, server, page_errors):
     pane = open_settings(own_page, server)
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").last, "as needed")
+    # and that it isn't in effect yet is said there and in the sidebar
+    expect(part(pane, "needs-reconnect")).to_be_visible(timeout=30_000)
+    told = [warning["code"] for warning in helpers.status(server)["warnings"]]
+    assert "settings_reconnect" in told
     part(pane, "write-profile").click()
     expect(part(pane, "profile-fits")).to_be_visible()
     assert server.get(PROFILE).json() != before
@@ -156,6 +158,7 @@ def test_every_part_of_the_settings_is_there(own_page, server, page_errors):
         "Connection",
         "Terminal",
         "When a print of OctoPrint is cancelled",
+        "Bar at the top of the page",
         "Rows of the sidebar",
         "What RepRapFirmware needs of OctoPrint",
         "Printer profile",
