@@ -1,9 +1,7 @@
 """Every part of the plugin made once, from the ground up, and who is told of what.
 
 A line comes in by ``link.serial.received`` and goes by the worker and ``link.poller`` to
-``rrf.follow.follower``; what it did is told to the listeners, in the order of ``_listeners``. A
-command goes by ``control.machine_commands`` or OctoPrint's own operations to
-``link.serial.queued``.
+``rrf.follow.follower``; what it did is told to the listeners, in the order of ``_listeners``.
 """
 
 import time
@@ -18,36 +16,41 @@ from .guard.notifications import Notifications
 from .host.notes import NOTES
 from .host.request_checks import RequestChecks
 from .host.setup import Setup
+from .host.version import IS_2
 from .host.warnings import worst_first
 from .integrations.helpers import Helpers
 from .integrations.octoprint_events import MachineEvents
 from .integrations.other_plugins import OtherPlugins
 from .integrations.plugin_subscribers import PluginSubscribers
+from .link.followed import make_follower
+from .link.heater_ages import HeaterAges
 from .link.known import Known
+from .link.last_simulation import LastSimulation
+from .link.links import Links
 from .link.listeners import Listeners
+from .link.network.beside import Beside
+from .link.network.network import Network
 from .link.poller import Poller
 from .link.questions import Questions
-from .link.reports import TemperatureReports
-from .link.serial.display import Display
-from .link.serial.patience import Patience
-from .link.serial.received import ReceivedLines
-from .link.serial.refused_lines import RefusedLines
+from .link.reports import BoxReports, TemperatureReports
+from .link.resets import Resets
+from .link.sender import Sender
+from .link.serial.hooks_made import serial_hooks
 from .link.serial.sdcard import SdCard
 from .link.serial.sdjob import SdJob
-from .link.serial.sdupload import UploadRefusal
-from .link.serial.sent import SentCommands
 from .link.serial.serial_link import SerialLink
-from .link.serial.simulated_port import SimulatedPort
-from .link.serial.way_out import queued_commands
 from .link.status import PluginStatus
-from .link.terminal import TerminalFilter
 from .link.worker import Worker
 from .rrf.card.listing import CardPlan
-from .rrf.follow.follower import Follower
+from .web.audience import Audience
 from .web.commands_api import PluginCommands
+from .web.console_api import Console
 from .web.history_api import MachineHistory
 from .web.model_api import ModelApi
 from .web.moonraker.moonraker import Moonraker
+from .web.network_api import NetworkRequests
+from .web.pages import Pages
+from .web.prints import Prints
 from .web.push import ModelPush
 
 
@@ -73,29 +76,34 @@ class Assembly:
         self.worker = Worker("rrfmodel.worker")
         self._listeners = Listeners()
         self.tell = self._listeners.replied
-        self.link = SerialLink(host.printer, host.profiles, self._clock)
-        self._follower = Follower()
-        self._known = Known(self._follower, self.link, self._clock)
+        self._sender = Sender()
+        later, notify = self._sender.later, self.worker.notify
+        self.link = SerialLink(host.printer, host.profiles, self._clock, later=later, notify=notify)
+        self._links = Links(self.link)
+        self._interest, self._follower = make_follower(self._clock)
+        self._known = Known(self._follower, self._links, self._clock)
         self.model = self._known.model
         self._reports = TemperatureReports(self._follower, self._known, self._listeners.warmed)
-        self._notifications = Notifications(host.tell_pages, self._clock)
-        self.setup = Setup(host, self.link, self._known)
-        """What the settings page and the first-run wizard show."""
+        self._heater_ages, self._simulation = HeaterAges(self._clock), LastSimulation(self.model)
+        self._pages = Pages(host.tell_pages)
+        self._notifications = Notifications(self._pages.tell, self._clock)
+        self.setup = Setup(host, self._links, self._known)
 
     def _make_guard(self):
         guards = make_guards(
             self._host,
-            self.link,
+            self._links,
             self._known,
             notifications=self._notifications,
             problems=self.setup.problems,
+            show_box=BoxReports(self._follower, self.tell).show,
             clock=self._clock,
         )
         self._boxes, self._guard, self._recovery, self._warnings, self._file_check = guards
 
     def _make_card_and_poller(self):
         known = self._known
-        job = SdJob(known.model, known.is_current, self.link.send, clock=self._clock)
+        job = SdJob(known.model, known.is_current, self.link.send_later, clock=self._clock)
         self._card = SdCard(
             CardPlan(),
             job,
@@ -107,7 +115,7 @@ class Assembly:
         self._poller = Poller(
             self._follower,
             self._card,
-            self.link,
+            self._links,
             known=known,
             replied=self._listeners.replied,
             clock=self._clock,
@@ -116,50 +124,55 @@ class Assembly:
     def _make_control(self):
         self._rate = Rate(self._clock)
         self._commands = MachineCommands(
-            self.link,
+            self._links,
             self._known.machine,
             self._boxes,
             recovery=self._recovery,
             look=partial(self.worker.notify, "look"),
             rate=self._rate,
         )
-        self.questions = Questions(self._poller, self.link)
+        self.questions = Questions(self._poller, self._links)
 
     def _make_web(self):
-        host, model = self._host, self._known.model
-        self.status = PluginStatus(
-            host.version,
-            self.link,
-            self._poller,
-            known=self._known,
-            warnings=self._all_warnings,
-            is_first_run=self.setup.is_first_run,
+        host, model, known = self._host, self._known.model, self._known
+        # made below, and asked only later
+        job = lambda: self.moonraker.job.job()  # noqa: E731
+        prints = self.prints = Prints(host, model, self._links, sent=job)
+        told = {"warnings": self._all_warnings, "is_first_run": self.setup.is_first_run}
+        notes = {"notify": self.worker.notify, "clock": self._clock}
+        self.beside = Beside(host.settings, self._links, known, **notes)
+        told.update(heater_ages=self._heater_ages, simulated_file=self._simulation, **prints.told)
+        told["beside"] = self.beside.is_found
+        self.status = PluginStatus(host.version, self._links, self._poller, known=known, **told)
+        self.moonraker = Moonraker(host, self._follower, self._links, rate=self._rate, **notes)
+        subscribers = self._plugin_subscribers = PluginSubscribers(host.plugins, model)
+        self._audience = Audience(self._interest, self.moonraker.sockets.count, subscribers.paths)
+        self.api = ModelApi(model, self.status, self._links, audience=self._audience)
+        looks = {"audience": self._audience, "streamed": prints.layers}
+        self.history = MachineHistory(model, self._poller.is_stale, **looks)
+        self.console = Console(self.moonraker.store, self._pages, self._clock)
+        self._push = ModelPush(self._pages, model, self.status, clock=self._clock)
+        sent = self.moonraker.store.sent
+        self.networks = tuple(
+            Network(self._links, host, known=known, sent=sent, **notes) for _ in range(IS_2)
         )
-        self.api = ModelApi(model, self.status, self.link)
-        self.history = MachineHistory(model, self._poller.is_stale)
-        self._push = ModelPush(host.tell_pages, model, self.status, clock=self._clock)
-        self.commands = PluginCommands(self._commands, self.setup)
-        self.moonraker = Moonraker(
-            host,
-            self._follower,
-            self.link,
-            notify=self.worker.notify,
-            rate=self._rate,
-            clock=self._clock,
-        )
+        """What boards on the network stand on; none in 1.11."""
+        self._network_requests = [NetworkRequests(each.memory) for each in self.networks]
+        more = {name: run for each in self._network_requests for name, run in each.commands()}
+        self.commands = PluginCommands(self._commands, self.setup, more=more)
 
     def _make_integrations(self):
         host, model = self._host, self._known.model
         self._events = MachineEvents(host.fire, self._known, self._boxes)
-        self._plugin_subscribers = PluginSubscribers(host.plugins, model)
         self.other_plugins = OtherPlugins(
             host,
-            self.link,
+            self._links,
             model,
             status=self.status,
             command=self._commands.command,
             clock=self._clock,
         )
+        self._audience.publishes = self.other_plugins.publishes
         self.helpers = Helpers(
             model,
             self._plugin_subscribers.subscribe,
@@ -170,41 +183,28 @@ class Assembly:
         )
 
     def _make_hooks(self):
-        host, notify = self._host, self.worker.notify
-        self.display = Display(self.link, self._known, self._poller.is_stale, fire=host.fire)
-        self.received = ReceivedLines(
+        hooks = serial_hooks(
+            self._host,
             self.link,
             self._card,
-            notify,
-            guards=self._guard.handles,
-            patience=Patience(self.link, host.silence_minutes, self._boxes.holds_the_line),
-            refusals=RefusedLines(self.link, notify, stops=self._guard.stops, clock=self._clock),
-        )
-        self.queued = queued_commands(
-            self.link,
-            self._card,
-            self._known.machine,
-            notify=notify,
-            is_on=partial(host.is_set, "operations"),
+            known=self._known,
+            notify=self.worker.notify,
+            clock=self._clock,
+            guard=self._guard,
+            is_stale=self._poller.is_stale,
+            waits_for_a_person=self._boxes.wait_for_a_person,
+            sent=self.moonraker.store.sent,
             prompts=self.other_plugins.prompt.translate,
         )
-        self.sent = SentCommands(
-            self.link,
-            notify,
-            self._clock,
-            show_target=self.display.show_target,
-            sent=self.moonraker.store.sent,
-        )
-        self.uploads = UploadRefusal(self.link)
-        self.terminal = TerminalFilter(host.is_set, self.link)
-        self.simulated_port = SimulatedPort(host.simulator)
+        self.display, self.received, self.queued, self.sent = hooks[:4]
+        self.uploads, self.terminal, self.simulated_port = hooks[4:]
         self.refusals = [
             self.uploads.refuse,
             self._guard.refuse,
-            RequestChecks(self.link).refuse,
+            RequestChecks(self._links).refuse,
             self.commands.refuse,
+            *(each.refuse for each in self._network_requests),
         ]
-        """What looks at requests to OctoPrint's API."""
 
     def listeners(self):
         """Return who is told, in order; all by the worker's thread.
@@ -218,18 +218,21 @@ class Assembly:
             self._boxes,
             self._guard,
             self._file_check,
-            self.link,
-            self._poller,
+            *(self.link, self.beside, *self.networks),
+            *(self._poller, self._heater_ages, self._simulation),
+            self.prints.jobs,
             self._push,
+            self.console,
             self.other_plugins,
             self._card,
             self.display,
-            self.setup.settings,
+            self.setup,
             self._notifications,
             self.history,
             self.moonraker.objects,
             self._events,
             self._plugin_subscribers,
+            self._audience,
             self.moonraker.sockets,
         )
 
@@ -247,16 +250,16 @@ class Assembly:
             "poll_sent": poller.poll_sent,
             "poll_acknowledged": poller.poll_acknowledged,
             "look": poller.look,
-            "send": self.link.send,
+            "was_reset": Resets(self._follower, poller, self._listeners).note,
             "refused_operation": self._notifications.tell,
-            "halted": self._recovery.halted,
+            "halted": self._listeners.halted,
             "print_paused": guard.paused,
             "print_resumed": guard.resumed,
             "print_waits": guard.waits_for,
             "print_stops": guard.stopped,
             "print_started": guard.started,
             "print_bound": guard.forgotten,
-            "settings_updated": self.setup.settings.look,
+            "settings_updated": self.setup.look,
         }
 
     def _all_warnings(self):
@@ -267,27 +270,31 @@ class Assembly:
 
     def start(self):
         """Begin to work: OctoPrint is up."""
-        self.worker.start()
-        self._file_check.start()
-        self.other_plugins.start()
+        for part in self._threads():
+            part.start()
         self.moonraker.start()
-        self._plugin_subscribers.start()
 
     def stop(self):
         """End all threads."""
-        self._plugin_subscribers.stop()
-        self.other_plugins.stop()
-        self._file_check.stop()
-        self.worker.stop()
+        for part in reversed(self._threads()):
+            part.stop()
+
+    def _threads(self):
+        own = self._pages, self._sender, self.prints, self.worker, self._file_check
+        return (*own, *self.networks, self.other_plugins, self._plugin_subscribers)
 
     def on_event(self, event, payload):
         """Hand on what OctoPrint says of its connection and its prints."""
         # events come late: by now another connection may be up, which brings its own beginning
-        if event == Events.DISCONNECTED and not self.link.is_operational:
+        is_line = self._links.current is self.link
+        if event == Events.DISCONNECTED and is_line and not self.link.is_operational:
             self.link.forget()
             self.worker.notify("disconnected")
-        self.moonraker.job.on_event(event, payload)
-        self._file_check.on_event(event, payload)
+        if not is_line and event != Events.SETTINGS_UPDATED:
+            # a print that the board runs by itself is nothing to who looks after a streamed one
+            return
+        for part in (self.moonraker.job, self._file_check, self.prints):
+            part.on_event(event, payload)
         note = NOTES.get(event)
-        if note and self.link.is_rrf:
+        if note and self._links.is_rrf:
             self.worker.notify(note)

@@ -9,11 +9,25 @@ from .assembly import Assembly
 from .host.host import Host
 from .host.notes import DISABLED_PLUGIN
 from .host.plugin_settings import DEFAULTS, VERSION
-from .web.assets import ASSETS
+from .web.assets import assets_of
 from .web.endpoints import Endpoints
 from .web.files_api import FolderHandler, Folders
+from .web.height_map_api import HeightMapHandler
 from .web.live_api import LiveModelHandler
+from .web.machine_files_api import MachineFileHandler, MachineFilesHandler
+from .web.network_api import CONNECTOR, CONNECTOR_NAME
+from .web.pages import NEEDED
 from .web.thumbnail_api import ThumbnailHandler, Thumbnails
+
+CONNECTION = (
+    {
+        "type": "connection_options",
+        "name": CONNECTOR_NAME,
+        "connector": CONNECTOR,
+        "custom_bindings": True,
+    },
+)
+"""The panel for a board on the network, in OctoPrint 2.0 alone."""
 
 
 class RrfModelPlugin(
@@ -46,14 +60,20 @@ class RrfModelPlugin(
         self._api = self.parts.api
         self._moonraker = self.parts.moonraker.api
         self._history = self.parts.history
+        self._jobs = self.parts.prints.jobs
+        self._console = self.parts.console
         self._setup = self.parts.setup
 
     def _tell_pages(self, message):
-        self._plugin_manager.send_plugin_message(
-            self._identifier, message, permissions=[Permissions.PLUGIN_RRFMODEL_READ]
-        )
+        names = NEEDED.get(message["type"], ())
+        needed = [Permissions.PLUGIN_RRFMODEL_READ, *(getattr(Permissions, name) for name in names)]
+        self._plugin_manager.send_plugin_message(self._identifier, message, permissions=needed)
 
     ##~~ OctoPrintPlugin
+
+    def initialize(self):
+        for network in self.parts.networks:
+            network.register()
 
     def on_plugin_pending_uninstall(self):
         self.parts.setup.restore_all()
@@ -87,15 +107,19 @@ class RrfModelPlugin(
     def get_settings_version(self):
         return VERSION
 
+    def get_settings_restricted_paths(self):
+        return {"never": [["network", "passwords"], ["network", "hosts"]]}
+
     ##~~ AssetPlugin
 
     def get_assets(self):
-        return ASSETS
+        return assets_of(bool(self.parts.networks))
 
     ##~~ TemplatePlugin
 
     def get_template_configs(self):
         return [
+            *(CONNECTION if self.parts.networks else ()),
             {
                 "type": "sidebar",
                 "name": gettext("RepRapFirmware"),
@@ -104,16 +128,18 @@ class RrfModelPlugin(
             },
             {
                 "type": "tab",
-                "name": gettext("RepRapFirmware"),
+                # short, so that it finds room beside OctoPrint's own
+                "name": gettext("RRF"),
                 "custom_bindings": True,
                 "data_bind": "visible: mayRead",
             },
+            {"type": "navbar", "custom_bindings": True, "classes": ["rrfmodel-navbar"]},
             {"type": "generic", "template": "rrfmodel.jinja2", "custom_bindings": True},
             {"type": "settings", "name": gettext("RepRapFirmware"), "custom_bindings": False},
         ]
 
     def get_template_vars(self):
-        return {group: list(DEFAULTS[group]) for group in ("operations", "replies", "sidebar")}
+        return {"sidebar": list(DEFAULTS["sidebar"]), "has_network": bool(self.parts.networks)}
 
     def is_template_autoescaped(self):
         return True
@@ -143,9 +169,13 @@ class RrfModelPlugin(
 
         questions, model = self.parts.questions, self.parts.model
         live = {"questions": questions, "app": app}
+        files = {**live, "files": [each.machine_files for each in self.parts.networks]}
         folders = Folders(questions.ask_about_the_card, questions.changes_of_the_card)
         return [
             (r"/model/live", LiveModelHandler, live),
+            (r"/heightmap", HeightMapHandler, live),
+            (r"/machine_files", MachineFilesHandler, files),
+            (r"/machine_file", MachineFileHandler, files),
             (r"/files", FolderHandler, {**live, "folders": folders}),
             (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": Thumbnails(questions, model)}),
             *self.parts.moonraker.sockets.routes(app),

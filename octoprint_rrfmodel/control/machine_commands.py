@@ -64,7 +64,9 @@ class MachineCommands:
         if name == "message_box":
             self._boxes.note_answer()
         carried = self._link.carried(lines, machine)
-        self._link.send(carried, {COMMAND_TAG})
+        # an answer that what the line waits for is waiting for, past all that waits behind it
+        answers = name == "message_box" and self._link.waits_in_a_box()
+        self._link.send(carried, {COMMAND_TAG}, force=answers)
         # what has come of it is asked at once where that costs nobody time: a print's lines would
         # wait, and behind a command that blocks the question comes soon enough
         if not self._link.is_streaming_a_print() and not any(map(blocks, carried)):
@@ -79,8 +81,10 @@ class MachineCommands:
 
     def _situation(self):
         link = self._link
+        # a line is there or it isn't
+        is_away = getattr(link, "is_away", False)
         return Situation(
-            is_connected=link.is_operational,
+            is_connected=link.is_operational and not is_away,
             is_rrf=link.is_rrf,
             octoprint_prints=link.has_a_print(),
             octoprint_is_paused=link.is_paused(),

@@ -19,10 +19,13 @@ class Guards(NamedTuple):
     file_check: FileCheck
 
 
-def make_guards(host, link, known, *, notifications, problems, clock):
-    """Return the parts; ``host`` is OctoPrint, ``known`` what is known of the machine."""
+def make_guards(host, link, known, *, notifications, problems, show_box, clock):
+    """Return the parts; ``host`` is OctoPrint, ``known`` what is known of the machine.
+
+    ``show_box(box)`` puts a message box into the model, ``None`` for none.
+    """
     model = known.model
-    boxes = MessageBoxes(model, clock, link=link, tell=notifications.tell)
+    boxes = MessageBoxes(model, clock, link=link, tell=notifications.tell, show=show_box)
     guard = PrintGuard(
         host.printer,
         link.has_a_print,

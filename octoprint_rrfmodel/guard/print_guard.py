@@ -10,6 +10,8 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from ..host.answers import refusal
+from ..host.own_thread import on_a_thread_of_its_own
+from ..host.request_json import json_of
 from ..host.warning_texts import waiting_text, warning_text
 from ..host.warnings import FILE_PAUSES
 from ..rrf.gcode.file_place import named
@@ -31,6 +33,9 @@ OF_A_LINE = frozenset((*REFUSALS, *FILE_PAUSES))
 """Codes of what a print meets at one of its lines; when that is mended only a person knows."""
 
 FOR_EVER = float("inf")
+
+PAUSING_SECONDS = 0.5
+"""Time that the worker gives a pause to begin; hooks of other plugins may hold it up."""
 
 LET_GO_SECONDS = 60.0
 """Time without a refusal behind which one of the same kind is news again."""
@@ -75,6 +80,7 @@ class PrintGuard:
         self._paused_for = None
         # events come late: the next pause may be under way before the end of the last one is told
         self._pausing_for = None
+        self._pausing = None
 
     def causes(self):
         """Return why the print may not go on, the worst first; nothing where there is none."""
@@ -118,8 +124,13 @@ class PrintGuard:
         # 2.0 counts the pause itself as printing, too
         if not printer.is_printing() or printer.is_paused():
             return
+        if self._pausing is not None and self._pausing.is_alive():
+            # hung up, and pauses as soon as it can
+            return
         self._pausing_for = (tuple(causes), "")
-        printer.pause_print()
+        self._pausing = on_a_thread_of_its_own(printer.pause_print, name="rrfmodel.pause")
+        # as good as always it is through at once, and told behind it
+        self._pausing.join(PAUSING_SECONDS)
         self._tell_new(causes)
 
     def _takes_over(self, causes):
@@ -247,7 +258,7 @@ class PrintGuard:
         if request.endpoint != JOB_ENDPOINT or request.method != "POST":
             return None
         # without the permission OctoPrint's own answer is the right one
-        if not self._wants_to_go_on(request.get_json(silent=True)) or not Permissions.PRINT.can():
+        if not self._wants_to_go_on(json_of(request)) or not Permissions.PRINT.can():
             return None
         why = self.refusal()
         return refusal(409, why) if why else None

@@ -26,6 +26,7 @@ def _of_requests():
         "needless": gettext(
             "The parameter %(parameter)s belongs to these actions only: %(known)s."
         ),
+        "one_of": gettext("Give one of these parameters: %(known)s."),
         "nothing_to_do": gettext("Give at least one of these parameters: %(known)s."),
         "not_a_number": gettext("The parameter %(parameter)s has to be a number."),
         "not_whole": gettext("The parameter %(parameter)s has to be a whole number."),
@@ -78,6 +79,17 @@ def _of_things():
         ),
         "no_such_spindle": gettext(
             "The machine has no spindle %(value)s. Its spindles are: %(known)s."
+        ),
+        "no_such_probe": gettext("The machine has no probe %(value)s. Its probes are: %(known)s."),
+        "no_such_output": gettext(
+            "The machine has no output %(value)s. Its outputs are: %(known)s."
+        ),
+        "no_such_strip": gettext(
+            "The machine has no LED strip %(value)s. Its strips are: %(known)s."
+        ),
+        "no_such_board": gettext("The machine has no board %(value)s. Its boards are: %(known)s."),
+        "no_such_variable": gettext(
+            "The machine has no variable %(value)s. Its variables are: %(known)s."
         ),
         "cannot_reverse": gettext("Spindle %(spindle)s turns in one direction only."),
         "no_such_object": gettext("The print has no object %(value)s. Its objects are: %(known)s."),
@@ -149,6 +161,10 @@ def _of_states():
         "no_power_control": gettext(
             "The machine has no power supply control. Set it up with M80 C in its config.g."
         ),
+        "currents_unknown": gettext(
+            "The currents of the other extruders are not known, and they are set together."
+        ),
+        "needs_firmware": gettext("Only RepRapFirmware %(version)s and newer can do that."),
         "tool_state_firmware": gettext(
             "Only RepRapFirmware %(version)s and newer can do that. Select the tool, or set its"
             " temperatures."

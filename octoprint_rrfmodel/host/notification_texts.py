@@ -48,6 +48,21 @@ def notification_text(code, detail):
             " through. If that is too late, switch the machine off. Firmware 3.6.3 and newer stops"
             " at once."
         ),
+        "stopped_beside": gettext(
+            "The machine has stopped: the emergency stop has come over its network."
+        ),
+        "prints": gettext("Nothing was done: the machine prints."),
+        "not_brought": gettext("The print was not begun. %(detail)s"),
+        "unsent_away": gettext("Not sent, the machine doesn't answer: %(detail)s."),
+        "unsent_reset": gettext("Not sent, the machine was reset: %(detail)s."),
+        "unsent_doubtful": gettext(
+            "It is not known whether the machine got %(detail)s. It is not sent again; look at the"
+            " machine first."
+        ),
+        "unsent_too_long": gettext(
+            "Not sent, it is longer than the 240 letters that the machine's network takes:"
+            " %(detail)s."
+        ),
         "recover_failed": gettext(
             "The machine did not come back after its restart. Check its power and cable, then"
             " connect."

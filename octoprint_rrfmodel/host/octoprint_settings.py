@@ -88,6 +88,10 @@ NEEDS = (
 )
 
 
+AT_CONNECTION = frozenset(("long_running_commands", "unknown_commands"))
+"""Codes of what OctoPrint reads only when it connects (1.11 comm.py:584, :680, 2.0 the same)."""
+
+
 class OctoPrintSettings:
     """Knows what is missing, sets it, and sets back exactly that.
 
@@ -102,14 +106,20 @@ class OctoPrintSettings:
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.octoprint_settings")
         self.missing = ()
         """The codes of the warnings, as they were when last looked."""
-
-    def identified(self):
-        """Find out what is missing for the board that is there now (a listener)."""
-        self.look()
+        self._connected_without = frozenset()
 
     def look(self):
         """Find out what is missing."""
         self.missing = tuple(need.code for need in NEEDS if self._lacks(need))
+
+    def connected(self):
+        """Look at what is missing, and note that the connection goes by that."""
+        self.look()
+        self._connected_without = AT_CONNECTION.intersection(self.missing)
+
+    def awaits_connection(self):
+        """Return whether something is set by now that this connection goes without."""
+        return bool(self._connected_without.difference(self.missing))
 
     def table(self):
         """Return each setting that matters: code, path, value now and wanted, and whether it fits.

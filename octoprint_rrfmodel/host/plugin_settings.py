@@ -50,8 +50,20 @@ DEFAULTS = {
     "prompts": False,
     # rows of the sidebar that are shown
     "sidebar": dict.fromkeys(SIDEBAR, True),
+    # what the machine does in the bar at the top of OctoPrint's page
+    "navbar": True,
     # whether somebody has been led through what a machine needs of OctoPrint
     "wizard_seen": False,
+    "network": {
+        # minutes that a board may not answer for before the connection with it ends
+        "gap_minutes": 30.0,
+        # port of the web server of a board on the cable, for an emergency stop over its network,
+        # too; 0: not
+        "beside_port": 0,
+        # by address; both are kept by the plugin alone, and told to nobody
+        "passwords": {},
+        "hosts": {},
+    },
     "simulator": {
         # whether the port RRF-SIM is offered
         "enabled": False,
@@ -60,5 +72,7 @@ DEFAULTS = {
         "speed": 1.0,
         # names as the simulator's --list tells them, such as "lost_ok:50"
         "faults": [],
+        # whether a large print with several objects is on its card
+        "demo_print": False,
     },
 }

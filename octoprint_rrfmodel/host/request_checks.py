@@ -14,6 +14,7 @@ from octoprint.access.permissions import Permissions
 
 from .answers import refusal
 from .printer_profile import takes_tool_numbers
+from .request_json import json_of
 
 PRINTHEAD, TOOL = "api.printerPrintheadCommand", "api.printerToolCommand"
 BED, CHAMBER = "api.printerBedCommand", "api.printerChamberCommand"
@@ -151,7 +152,7 @@ class RequestChecks:
         # without the permission OctoPrint's own answer is the right one
         if not checks or not Permissions.CONTROL.can():
             return None
-        data = request.get_json(silent=True)
+        data = json_of(request)
         if not isinstance(data, dict):
             return None
         for check in checks:

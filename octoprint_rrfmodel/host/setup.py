@@ -8,6 +8,7 @@ from .answers import answer, refusal
 from .command_texts import command_text
 from .journal import Journal
 from .octoprint_settings import OctoPrintSettings
+from .own_thread import on_a_thread_of_its_own
 from .printer_profile import PrinterProfile
 
 SEEN = ["wizard_seen"]
@@ -33,14 +34,20 @@ class Setup:
         )
         self._link = link
         self._known = known
+        self._seen = None
 
     def _base(self):
         return self._own().global_get_basefolder("base")
 
     def problems(self):
         """Return the codes of the warnings that are due."""
+        # what OctoPrint's settings say of lines means nothing to a board on the network
+        is_line = self._link.kind == "serial"
+        codes = list(self.settings.missing) if is_line else []
+        if is_line and self.settings.awaits_connection():
+            codes.append("settings_reconnect")
         code = self._profile.problem()
-        return [*self.settings.missing, *([code] if code else [])]
+        return [*codes, code] if code else codes
 
     def restore_all(self):
         """Set back what was changed of OctoPrint's own, as when the plugin will be gone."""
@@ -56,8 +63,23 @@ class Setup:
 
     def is_first_run(self):
         """Return whether nobody has been led through this since the plugin was installed."""
-        seen = self._own().get_boolean(SEEN)
-        return not seen and self._is_ready() and not self._prints()
+        return not self._is_seen() and self._is_ready() and not self._prints()
+
+    def _is_seen(self):
+        # the state tells it several times a second, and OctoPrint's settings take their time
+        if self._seen is None:
+            self._seen = self._own().get_boolean(SEEN)
+        return self._seen
+
+    def identified(self):
+        """Look at what is missing for the board that is there now (a listener)."""
+        self._seen = None
+        self.settings.connected()
+
+    def look(self):
+        """Look again at what may be set otherwise now: OctoPrint's settings have changed."""
+        self._seen = None
+        self.settings.look()
 
     def get_setup(self):
         """Return all of it; the differences are empty while no whole model is known."""
@@ -102,7 +124,19 @@ class Setup:
         self.restore_all()
         return None
 
+    def reconnect(self, parameters):
+        """Connect to the same board again, for what OctoPrint looks at only then."""
+        if self._prints():
+            return 409, gettext("Something is being printed. Connect again afterwards.")
+        if not self._link.can_restart:
+            return 409, gettext(
+                "No printer with RepRapFirmware was connected yet. Connect it first."
+            )
+        on_a_thread_of_its_own(self._link.reconnect, name="rrfmodel.reconnect")
+        return None
+
     def wizard_done(self, parameters):
         """Note that somebody has been led through, and wants no more of it."""
         self._own().set_boolean(SEEN, True)
+        self._seen = None
         self._own().save()

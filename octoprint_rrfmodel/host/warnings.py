@@ -31,6 +31,8 @@ FIXES = {
     "unknown_commands": "fix_settings",
     "external_heatup": "fix_settings",
     "profile_tools": "fix_profile",
+    "settings_reconnect": "reconnect",
+    "profile_reconnect": "reconnect",
 }
 """The command of ``POST /api/plugin/rrfmodel`` that mends what a warning is about."""
 

@@ -1,7 +1,8 @@
 """Futures for other plugins: what they hang on one runs on a thread of its own."""
 
-import threading
 from concurrent.futures import Future
+
+from ..host.own_thread import on_a_thread_of_its_own
 
 
 class Answer(Future):
@@ -13,8 +14,6 @@ class Answer(Future):
 
     def add_done_callback(self, fn):
         """Have ``fn(future)`` called when this is done, as ``concurrent.futures`` describes."""
-        super().add_done_callback(lambda done: _start(fn, done))
-
-
-def _start(function, done):
-    threading.Thread(target=function, args=(done,), name="rrfmodel.answer", daemon=True).start()
+        super().add_done_callback(
+            lambda done: on_a_thread_of_its_own(fn, done, name="rrfmodel.answer")
+        )

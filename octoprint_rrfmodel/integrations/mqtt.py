@@ -81,12 +81,17 @@ class MqttPublisher:
         with self._lock:
             self._changed.clear()
 
+    def publishes(self):
+        """Return whether anything goes out."""
+        return self._base is not None
+
     def problem(self):
         """Return the code of a warning where the setting is no topic and somebody publishes."""
-        setting = self._topic()
-        if setting is None or topic_of(setting) or self._publish() is None:
+        # it is asked often, and hardly anybody has a publisher
+        if self._publish() is None:
             return None
-        return "mqtt_topic"
+        setting = self._topic()
+        return None if setting is None or topic_of(setting) else "mqtt_topic"
 
     def tick(self):
         """Publish what is due; return the seconds until something may be."""

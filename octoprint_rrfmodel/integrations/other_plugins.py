@@ -41,6 +41,7 @@ class OtherPlugins:
             handler_of(host.plugins), link, model=model, is_on=self._wants_prompts
         )
         """Also looks at commands in the queuing hook."""
+        self.publishes = self._mqtt.publishes
         self._worker = Worker("rrfmodel.other_plugins")
         self._worker.attach({"look": self.prompt.look}, [self._mqtt.tick, self._layers.tick])
 

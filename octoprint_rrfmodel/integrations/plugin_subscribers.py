@@ -45,6 +45,10 @@ class PluginSubscribers:
             path, lambda key, new, old: callback(key, frozen(new), frozen(old))
         )
 
+    def paths(self):
+        """Return the keys of which somebody wants changes."""
+        return self._subscriptions.paths
+
     ##~~ a listener
 
     def replied(self, taken, asked_at):

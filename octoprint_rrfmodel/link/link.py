@@ -24,6 +24,9 @@ class Link(abc.ABC):
     kind = ""
     """``serial`` or ``network``."""
 
+    protocol = None
+    """``rr`` or ``dsf``, how the board is asked where it isn't by a command."""
+
     connection: object = None
     """What OctoPrint's hooks are handed as the connection, ``None`` without RepRapFirmware at its
     other end. It tells one connection from the next, and is nobody's to look into."""
@@ -42,6 +45,15 @@ class Link(abc.ABC):
 
     rewritten = 0
     """Commands of operations that went out otherwise than OctoPrint had them."""
+
+    polls_alone = False
+    """Whether a poll goes out without a status request behind it: each byte would show."""
+
+    is_away = False
+    """Whether the board doesn't answer for now; what it is sent would come late, or not at all."""
+
+    height_map = None
+    """The mesh in use (``rrf.card.height_map.HeightMap``), ``None`` where nobody has read it."""
 
     expects_refusal = False
     """Whether to look for the text that says that a polling command isn't known."""
@@ -67,8 +79,22 @@ class Link(abc.ABC):
         """Send a question (``rrf.wire.request``); the poller is told when it has left."""
 
     @abc.abstractmethod
+    def give_up(self):
+        """See to it that a request that was asked and has not left doesn't go out any more."""
+
+    @abc.abstractmethod
     def send(self, lines, tags, force=False):
-        """Queue lines of G-code; ``force`` goes past what is queued already."""
+        """Queue lines of G-code; ``force`` goes past what is queued already.
+
+        Hooks of other plugins run meanwhile: not to be called by the worker or Tornado's loop.
+        """
+
+    @abc.abstractmethod
+    def send_later(self, lines, tags):
+        """Queue lines from a thread that must not wait, for hooks of other plugins least of all.
+
+        They stay in order; of a connection that is over by then nothing goes into the next one.
+        """
 
     @abc.abstractmethod
     def carried(self, lines, machine):
@@ -76,7 +102,7 @@ class Link(abc.ABC):
 
     @abc.abstractmethod
     def stop_now(self, tags):
-        """Stop the machine at once."""
+        """Stop the machine at once, whatever code of other plugins hangs; doesn't wait for it."""
 
     @property
     @abc.abstractmethod
@@ -90,6 +116,13 @@ class Link(abc.ABC):
         ``is_running()`` says whether the board prints by itself, ``None`` while nobody knows. What
         somebody has begun meanwhile, here or there, is left alone. The one method that waits: on a
         thread of whoever calls it.
+        """
+
+    @abc.abstractmethod
+    def reconnect(self):
+        """Close the connection and connect to the same board again; takes seconds.
+
+        Where something is printed it does nothing. On a thread of whoever calls it.
         """
 
     ##~~ why the board can't be asked, and what it is asked to do
@@ -110,6 +143,13 @@ class Link(abc.ABC):
         """Return how many seconds nothing has come while a command is awaited that takes long."""
         return 0.0
 
+    def waits_in_a_box(self):
+        """Return whether what the line waits for is the answer to a message box.
+
+        M292 with ``force`` then goes past all that is queued.
+        """
+        return False
+
     @abc.abstractmethod
     def has_polled(self, command):
         """Return whether a command in OctoPrint's log was a poll, of earlier connections too."""
@@ -121,6 +161,13 @@ class Link(abc.ABC):
     @abc.abstractmethod
     def rate(self):
         """Return the line's rate in bits a second, 0 where there is none or it is unknown."""
+
+    def read_height_map(self):
+        """Return a future of the mesh in use and its file; ``None`` where no file can be read.
+
+        The future raises ``host.answers.RequestRefused`` where there is none.
+        """
+        return None
 
     ##~~ OctoPrint's print
 

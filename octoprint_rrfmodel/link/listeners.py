@@ -9,6 +9,7 @@ A listener is any object that has some of these methods; all are called by the p
 * ``reset()``: a reply has shown that the board began anew; the model is empty.
 * ``line(text)``: the board has said a line that is neither a reply nor the plugin's own.
 * ``heard(what)``: such a line tells of something (``rrf.wire.heard``).
+* ``halted(doing)``: an emergency stop goes out on a line that does that (``link.Doing``).
 * ``forgotten()``: the connection is gone, and with it what was known.
 * ``tick() -> seconds``: called when so many seconds have gone by, or sooner.
 """
@@ -53,6 +54,10 @@ class Listeners:
     def heard(self, what):
         """Tell of what a line of text tells."""
         self._call("heard", what)
+
+    def halted(self, doing):
+        """Tell of an emergency stop."""
+        self._call("halted", doing)
 
     def forgotten(self):
         """Tell of the end of a connection."""

@@ -11,6 +11,7 @@ from ..rrf.wire.line import NO_BUFFERS
 from ..rrf.wire.reply import MalformedReply
 from .card_turn import CardTurn
 from .poll_slot import GONE, Poll, Queries, answer_query, fail
+from .poll_times import PollTimes
 
 ANSWER_SECONDS = 10.0
 """Time that a poll has from being sent; RRF 3.5 waits for buffers before it answers."""
@@ -44,6 +45,7 @@ class Poller:
         self._replied = replied
         self._clock = clock
         self._pace = Pace()
+        self._times = PollTimes(follower, self._card, link, pace=self._pace)
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.polling")
         self._poll = None
         self._running = False
@@ -115,7 +117,7 @@ class Poller:
 
     def interval(self):
         """Return the seconds between two polls as they go now."""
-        return self._pace.wait(self._link.is_streaming_a_print())
+        return self._times.interval()
 
     def is_stale(self):
         """Return whether the model is older than three poll intervals."""
@@ -132,7 +134,7 @@ class Poller:
     def hurry(self):
         """Ask as soon as may be: something has happened."""
         self._hurries = self._poll is not None
-        self._next_at = self._clock()
+        self._next_at = self._clock() + self._times.hurry()
 
     ##~~ what the hooks noted
 
@@ -252,6 +254,7 @@ class Poller:
             is_card = request is not None
         else:
             self._card.is_over()
+        self._times.choose()
         request = request or self.follower.next_request()
         self._poll = Poll(request, query, is_card=is_card, queued_at=now)
         self._link.ask(request)
@@ -271,6 +274,8 @@ class Poller:
 
     def _time_out(self, poll):
         self._held_for = None
+        if poll.sent_at is None:
+            self._link.give_up()
         # if only the number spoke against it, it is not what it was taken for
         self._knows_numbers = self._knows_numbers and not poll.answered_others
         if poll.is_card or poll.query is not None:
@@ -291,10 +296,5 @@ class Poller:
         if failed:
             self._pace.failed()
         self._poll = None
-        wait = self._pace.wait(
-            self._link.is_streaming_a_print(),
-            behind=self.follower.behind or self._card.behind,
-            begins=not self.follower.ready,
-        )
-        self._next_at = self._clock() + (0.0 if self._hurries else wait)
+        self._next_at = self._clock() + self._times.wait(self._hurries)
         self._hurries = False

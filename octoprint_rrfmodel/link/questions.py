@@ -38,6 +38,10 @@ class Questions:
                     raise
             await asyncio.sleep(PAUSE_SECONDS)
 
+    def height_map(self):
+        """Return a future of the mesh in use and its file, ``None`` where no file can be read."""
+        return self._link.read_height_map()
+
     def connections(self):
         """Return a number for the connection that is there now."""
         return self._poller.connections

@@ -3,7 +3,7 @@
 from ..rrf.gcode.doing import OTHER
 from ..rrf.wire.masking import masked
 
-UNIMPORTANT = frozenset(("age", "at", "revision", "counters", "doing"))
+UNIMPORTANT = frozenset(("age", "ages", "at", "revision", "counters", "doing", "heater_ages"))
 """Members of the state that change all the time and are worth no message of their own."""
 
 
@@ -20,16 +20,23 @@ class PluginStatus:
     """Puts the state together from those who know its parts; any thread may ask.
 
     ``link`` is the line to the board, ``poller`` asks it, ``known`` is what has come of that.
-    ``warnings()`` are the warnings in their form, ``is_first_run()`` whether the wizard is due.
+    ``warnings()`` are the warnings in their form, ``is_first_run()`` whether the wizard is due,
+    ``heater_ages()`` how old each temperature is that the line has told, ``simulated_file()`` what
+    was simulated last, ``jobs()`` another number after each change of the jobs that are kept,
+    ``beside()`` whether a board on a cable has been found on the network, too.
     """
 
-    def __init__(self, version, link, poller, *, known, warnings, is_first_run):
+    def __init__(self, version, link, poller, *, known, **told):
         self._version = version
         self._link = link
         self._poller = poller
         self._known = known
-        self._warnings = warnings
-        self._is_first_run = is_first_run
+        self._warnings = told["warnings"]
+        self._is_first_run = told["is_first_run"]
+        self._heater_ages = told["heater_ages"]
+        self._simulated_file = told["simulated_file"]
+        self._jobs = told["jobs"]
+        self._beside = told["beside"]
 
     def __call__(self):
         """Return the state in the shape of the public contract, section 2."""
@@ -39,12 +46,13 @@ class PluginStatus:
             "version": self._version(),
             "connected": link.is_operational,
             "is_rrf": link.is_rrf,
-            "protocol": follower.protocol,
+            "protocol": follower.protocol and (link.protocol or follower.protocol),
             "firmware": self._firmware() if link.is_rrf else None,
             "ready": follower.ready,
             "stale": poller.is_stale(),
             "blocked": poller.why_silent(),
             "age": None if age is None else round(age, 2),
+            "ages": self._known.ages(),
             "at": round(self._known.now(), 3),
             "revision": follower.store.revision,
             "resets": follower.resets,
@@ -57,7 +65,11 @@ class PluginStatus:
             "too_large": list(follower.too_large),
             "warnings": self._warnings(),
             "link": link.kind,
+            "beside": self._beside(),
             "doing": self._doing(),
+            "heater_ages": self._heater_ages(),
+            "simulated_file": self._simulated_file(),
+            "jobs": self._jobs(),
             "first_run": self._is_first_run(),
         }
 

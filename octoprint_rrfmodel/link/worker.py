@@ -9,12 +9,17 @@ Which thread runs what:
 * Flask's threads: ``web.*_api``, ``web.moonraker.moonraker_api``, which read the snapshot, which
   never changes, and numbers, and put commands into OctoPrint's queue.
 * Tornado's loop: ``web.live_api`` and its like, which wait for a future that this worker resolves,
-  ``web.moonraker.websocket`` and ``subscribers``; others call them by ``add_callback`` alone, and
-  clients' G-code goes back to this worker to be sent.
+  ``web.moonraker.websocket`` and ``subscribers``; others call them by ``add_callback`` alone.
+* ``rrfmodel.sockets``: what the sockets of printer objects ask for, worked out off that loop.
 * ``rrfmodel.plugin_subscribers``, another ``Worker``: callbacks and hook handlers of plugins.
 * ``rrfmodel.other_plugins``, another: MQTT, PSUControl and the like.
 * ``rrfmodel.file_check``, another: files that are selected, looked through.
+* ``rrfmodel.jobs``, another: the file of the last jobs, and the layers of a file that is sent.
 * ``rrfmodel.recovery``: one restart of the board, waiting for it to come back.
+* ``rrfmodel.sender``, another: what the worker gives to OctoPrint's queue, where hooks of other
+  plugins run; ``rrfmodel.pages``, another: messages to pages and to other plugins' receivers.
+* ``rrfmodel.pause``, ``rrfmodel.stop``: one pause of a print, one emergency stop; other plugins'
+  hooks run there, too.
 """
 
 import logging
@@ -55,6 +60,11 @@ class Worker:
     def notify(self, name, *arguments):
         """Leave a note; any thread may, and never waits."""
         self._notes.put((name, arguments))
+
+    @property
+    def waiting(self):
+        """How many notes wait, the one that is worked on not counted."""
+        return self._notes.qsize()
 
     def _run(self):
         while True:

@@ -8,6 +8,7 @@ from octoprint.access.permissions import Permissions
 
 from ..host.answers import refusal
 from ..host.command_texts import command_text
+from ..host.request_json import json_of
 from ..rrf.gcode.commands import COMMANDS
 from ..rrf.gcode.commands.parameters import listed, shown
 
@@ -31,10 +32,10 @@ class PluginCommands:
     """Runs commands; none of them waits for the printer.
 
     ``machine`` runs those to the machine; ``setup`` changes what is OctoPrint's, and sets it
-    back.
+    back. ``more`` are further ones, as names with their ``Command``.
     """
 
-    def __init__(self, machine, setup):
+    def __init__(self, machine, setup, *, more=()):
         def to_machine(name):
             return lambda parameters: machine.run(name, parameters)
 
@@ -43,7 +44,9 @@ class PluginCommands:
             "fix_settings": Command("SETTINGS", lambda parameters: setup.settings.fix()),
             "restore_settings": Command("SETTINGS", setup.restore),
             "fix_profile": Command("SETTINGS", setup.fix_profile),
+            "reconnect": Command("CONNECTION", setup.reconnect),
             "wizard_done": Command("SETTINGS", setup.wizard_done),
+            **dict(more),
         }
 
     def names(self):
@@ -69,7 +72,7 @@ class PluginCommands:
         request = flask.request
         if request.endpoint != ENDPOINT or (request.view_args or {}).get("name") != IDENTIFIER:
             return None
-        data = request.get_json(silent=True)
+        data = json_of(request)
         name = data.get("command") if isinstance(data, dict) else None
         if isinstance(name, str) and name in self._commands:
             return None

@@ -11,6 +11,7 @@ class Endpoints(BlueprintPlugin):
     """Hands each request to the part that answers it.
 
     The class that inherits it has ``_api`` (``ModelApi``), ``_history`` (``MachineHistory``),
+    ``_console`` (``console_api.Console``), ``_jobs`` (``JobHistory``),
     ``_setup`` (``host.setup.Setup``) and ``_moonraker`` (``MoonrakerApi``).
     """
 
@@ -22,7 +23,7 @@ class Endpoints(BlueprintPlugin):
 
     @BlueprintPlugin.route("/status", methods=["GET"])
     def get_status(self):
-        return self._api.get_status()
+        return self._api.get_status(flask.request.args)
 
     @BlueprintPlugin.route("/model", methods=["GET"])
     def get_model(self):
@@ -31,6 +32,14 @@ class Endpoints(BlueprintPlugin):
     @BlueprintPlugin.route("/history", methods=["GET"])
     def get_history(self):
         return self._history.get_history(flask.request.args)
+
+    @BlueprintPlugin.route("/jobs", methods=["GET"])
+    def get_jobs(self):
+        return self._jobs.get_jobs()
+
+    @BlueprintPlugin.route("/console", methods=["GET"])
+    def get_console(self):
+        return self._console.get_console(flask.request.args)
 
     @BlueprintPlugin.route("/meanings", methods=["GET"])
     def get_meanings(self):

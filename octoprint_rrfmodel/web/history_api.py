@@ -20,11 +20,14 @@ class MachineHistory:
     """Keeps samples and layers, and answers requests for them.
 
     ``model()`` is the snapshot, ``is_stale()`` says whether it may still be shown as what is so
-    now, ``now()`` is the time of day in seconds.
+    now, ``now()`` is the time of day in seconds. ``audience`` is told who looks, ``streamed`` are
+    the layers of a print that OctoPrint sends.
     """
 
-    def __init__(self, model, is_stale, now=time.time):
+    def __init__(self, model, is_stale, now=time.time, *, audience, streamed):
         self._model = model
+        self._audience = audience
+        self._streamed = streamed
         self._is_stale = is_stale
         self._now = now
         self._history = History()
@@ -33,6 +36,11 @@ class MachineHistory:
         self._lock = threading.Lock()
 
     ##~~ a listener
+
+    def identified(self):
+        """Note that it may be another machine now."""
+        with self._lock:
+            self._history.connected()
 
     def replied(self, taken, asked_at):
         """Take what the model says after a reply."""
@@ -67,6 +75,7 @@ class MachineHistory:
 
     def tick(self):
         """Leave a gap where nothing has come for too long; return the seconds until next time."""
+        self._streamed.tick()
         if self._is_stale() and not 0 <= self._now() - self._warmed_at < WARM_SECONDS:
             self.forgotten()
         return TICK_SECONDS
@@ -83,22 +92,31 @@ class MachineHistory:
             since = math.nan
         if math.isnan(since):
             return refusal(400, gettext("The time in since is a number of seconds."))
+        self._audience.charts()
         return answer(self._told(since))
 
     def _told(self, since):
         with self._lock:
             now = self._now()
             samples = self._history.since(since)
-            layers = self._layers.since(since)
-            began_at = self._layers.began_at
+            layers = self._latest_layers()
+            began_at = layers.began_at
+            ended = layers.since(since)
         return {
             "now": _rounded(now),
             "interval": INTERVAL_SECONDS,
             "times": [_rounded(at) for at in samples.times],
             "series": [{"id": each.id, **each._asdict()} for each in samples.series],
             "began": None if began_at is None else _rounded(began_at),
-            "layers": [_layer(each) for each in layers],
+            "layers": [_layer(each) for each in ended],
+            "streamed": self._streamed.told(),
         }
+
+    def _latest_layers(self):
+        """Return the layers of the job that was begun last, whoever runs it."""
+        own, streamed = self._layers.began_at, self._streamed.began_at
+        is_sent = streamed is not None and (own is None or streamed > own)
+        return self._streamed if is_sent else self._layers
 
 
 def _layer(layer):

@@ -19,17 +19,22 @@ class ModelApi:
     """Answers requests from the cached model and the plugin's state.
 
     ``model()`` is the snapshot, ``status()`` the state, ``link`` the line to the board.
+    ``audience`` is told who looks.
     """
 
-    def __init__(self, model, status, link):
+    def __init__(self, model, status, link, *, audience):
+        self._audience = audience
         self._link = link
         self._model = model
         self._status = status
 
-    def get_status(self):
-        """Return the plugin's state."""
+    def get_status(self, arguments=None):
+        """Return the plugin's state; a page tells in ``view`` what it shows."""
         if not may_read():
             return refusal(403, gettext("You may not read the machine's model."))
+        view = (arguments or {}).get("view")
+        if view is not None:
+            self._audience.sees(view)
         return answer(self._status())
 
     def get_model(self, arguments):
@@ -41,12 +46,14 @@ class ModelApi:
             return refusal(503, why_empty(self._link))
         key = arguments.get("key", "")
         flags = arguments.get("flags", "")
+        self._audience.reads(key)
         return answer(m409.answer(model, key, flags))
 
     def get_metrics(self):
         """Return the model and the plugin's state in Prometheus' text format."""
         if not may_read():
             return refusal(403, gettext("You may not read the machine's model."))
+        self._audience.scrapes()
         text = exposition(self._model(), self._status())
         return flask.Response(text, content_type=CONTENT_TYPE)
 

@@ -21,18 +21,20 @@ SHORTEST_SECONDS = 0.5
 class ModelPush:
     """Tells the pages; runs on the worker thread.
 
-    ``send(message)`` reaches them. ``model()`` is the snapshot, ``status()`` the plugin's state.
+    ``pages`` reach them. ``model()`` is the snapshot, ``status()`` the plugin's state. While they
+    are behind it only goes on collecting.
     """
 
-    def __init__(self, send, model, status, *, clock):
-        self._send = send
+    def __init__(self, pages, model, status, *, clock):
+        self._pages = pages
+        self._send = pages.tell
         self._model = model
         self._status = status
         self._clock = clock
         self._changed = set()
         self._forgotten = False
         self._told = None
-        self._sent_at = 0.0
+        self._looked_at = 0.0
 
     ##~~ a listener
 
@@ -41,8 +43,9 @@ class ModelPush:
         self._changed.update(taken.changes)
 
     def warmed(self, warmed):
-        """Note temperatures that a line has told."""
+        """Note temperatures that a line has told, also those that are as before: they are fresh."""
         self._changed.update(warmed.changes)
+        self._told = None
 
     def reset(self):
         """Note that the board began anew."""
@@ -56,9 +59,12 @@ class ModelPush:
     def tick(self):
         """Send what is due; return the seconds until something may be."""
         now = self._clock()
-        due = self._sent_at + SHORTEST_SECONDS - now
+        due = self._looked_at + SHORTEST_SECONDS - now
         if due > 0:
             return due
+        if self._pages.are_behind():
+            return SHORTEST_SECONDS
+        self._looked_at = now
         status = self._status()
         told = worth_telling(status)
         if self._forgotten:
@@ -77,5 +83,4 @@ class ModelPush:
         else:
             return SHORTEST_SECONDS
         self._told = told
-        self._sent_at = now
         return SHORTEST_SECONDS

@@ -138,6 +138,10 @@ class Thumbnails:
             size -= len(gone.data) if gone else 0
 
 
+_NONE = object()
+"""Instead of a picture where there is none."""
+
+
 class ThumbnailHandler(LiveModelHandler):
     """Answers with the picture itself; ``thumbnails`` are ``Thumbnails``."""
 
@@ -154,9 +158,20 @@ class ThumbnailHandler(LiveModelHandler):
         if reason:
             self._refuse(400, reason)
             return
-        found = await self._answer_of(self._thumbnails.of(path))
-        if found is not None:
+        picture_of = self._if_any if self._argument("if_any") else self._thumbnails.of
+        found = await self._answer_of(picture_of(path))
+        if found is _NONE:
+            self.set_status(204)
+            self.finish()
+        elif found is not None:
             self.set_header("Content-Type", found.kind)
             self.set_header("X-Content-Type-Options", "nosniff")
             self.set_header("Cache-Control", f"private, max-age={SHOWN_SECONDS}")
             self.finish(found.data)
+
+    async def _if_any(self, path):
+        """Return the picture or ``_NONE``: in a list of files many have none."""
+        try:
+            return await self._thumbnails.of(path)
+        except RequestRefused:
+            return _NONE

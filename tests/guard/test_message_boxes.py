@@ -18,13 +18,18 @@ class Rig:
         self.now = 10.0
         self.model = {"boards": [{"firmwareVersion": version}]}
         self.blocked = "long_command"
+        self.waits_in_a_box = False
         self.told = []
+        self.shown = []
         self.fired = []
         self.boxes = MessageBoxes(
             lambda: self.model,
             lambda: self.now,
-            link=SimpleNamespace(blocked=lambda: self.blocked),
+            link=SimpleNamespace(
+                blocked=lambda: self.blocked, waits_in_a_box=lambda: self.waits_in_a_box
+            ),
             tell=self.told.append,
+            show=self.shown.append,
         )
         known = SimpleNamespace(model=lambda: self.model, is_ready=lambda: False)
         self.events = MachineEvents(lambda *event: self.fired.append(event), known, self.boxes)
@@ -83,3 +88,48 @@ def test_a_restart_is_a_way_out_of_a_print_that_nobody_can_end(
         is_held=lambda: is_held,
     )
     assert (recovery.refusal() is not None) is is_refused
+
+
+TEXT = ("- Tool -", "Is it clean?", "Both sides?", "Send M292 to continue or M292 P1 to cancel")
+
+
+def test_a_box_that_can_be_answered_is_shown_from_its_text_until_it_is():
+    rig = Rig("3.4.6")
+    rig.waits_in_a_box = True
+    for text in ("ok", *TEXT):
+        rig.boxes.line(text)
+    (box,) = rig.shown
+    assert (box["title"], box["message"], box["mode"]) == ("Tool", "Is it clean?\nBoth sides?", 3)
+    assert rig.boxes.wait_for_a_person() and not rig.boxes.holds_the_line()
+    rig.boxes.tick()
+    assert len(rig.shown) == 1
+    # the next one of the same macro is another one
+    rig.boxes.line("Send M292 to continue")
+    assert rig.shown[1]["seq"] != box["seq"]
+    assert (rig.shown[1]["mode"], rig.shown[1]["title"]) == (2, "")
+    rig.waits_in_a_box = False
+    rig.boxes.tick()
+    rig.boxes.tick()
+    assert rig.shown[2:] == [None]
+
+
+def test_a_box_is_shown_once_whichever_is_noted_first():
+    rig = Rig("3.4.6")
+    for text in TEXT:
+        rig.boxes.line(text)
+    assert rig.shown == []
+    # what the line waits for is noted when the line is read
+    rig.waits_in_a_box = True
+    rig.boxes.heard("box")
+    assert len(rig.shown) == 1
+    rig.boxes.heard("box")
+    assert len(rig.shown) == 1
+
+
+@pytest.mark.parametrize("version, waits", [("3.5.3", True), ("3.4.6", False)])
+def test_a_box_that_cannot_be_answered_or_holds_nothing_is_not_shown(version, waits):
+    rig = Rig(version)
+    rig.waits_in_a_box = waits
+    for text in TEXT:
+        rig.boxes.line(text)
+    assert rig.shown == []

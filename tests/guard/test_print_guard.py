@@ -1,48 +1,29 @@
 """Every fault of the guard's table on every firmware, by whatever way that firmware tells it."""
 
-from types import SimpleNamespace
+import threading
 
 import pytest
 
 pytest.importorskip("octoprint")
 
-from octoprint_rrfmodel.guard.print_guard import PrintGuard
+from octoprint_rrfmodel.guard import print_guard
 from octoprint_rrfmodel.rrf.follow.follower import Taken
 from octoprint_rrfmodel.rrf.views.warnings import GUARDS
 from octoprint_rrfmodel.rrf.wire.m408 import M408Model
 
 from ..rrf.simulated import Simulated
+from .guarded import GuardedPrint
 
 M408 = "2.05.1"
 VERSIONS = ("3.3", "3.4", "3.5.3", "3.6.0", "3.7", M408)
 
 
-class Printing:
-    """A guard and OctoPrint's print of one of its own files."""
+class Printing(GuardedPrint):
+    """A print on a machine that tells something."""
 
     def __init__(self, off=()):
-        self.pauses = 0
-        self.told = []
+        super().__init__(off)
         self.model = {"state": {"status": "idle"}}
-        printer = SimpleNamespace(
-            is_pausing=lambda: False,
-            is_cancelling=lambda: False,
-            is_finishing=lambda: False,
-            is_printing=lambda: not self.pauses,
-            is_paused=lambda: bool(self.pauses),
-            pause_print=self.pause,
-        )
-        self.guard = PrintGuard(
-            lambda: printer,
-            lambda: True,
-            lambda: self.model,
-            is_on=lambda group, code: code not in off,
-            tell=lambda code, detail: self.told.append((code, detail)),
-        )
-
-    def pause(self):
-        self.pauses += 1
-        self.guard.paused()
 
     def take(self, model):
         self.model = model
@@ -88,7 +69,7 @@ FAULTS = {
 
 @pytest.mark.parametrize("firmware", [version for version in VERSIONS if version != M408])
 @pytest.mark.parametrize("fault", FAULTS)
-def test_fault_pauses_whatever_tells_it(firmware, fault):
+def test_row_9_fault_pauses_whatever_tells_it(firmware, fault):
     name, cause = FAULTS[fault]
     printing = struck(firmware, name)
     assert printing.pauses == 1
@@ -181,3 +162,28 @@ def test_reset_pauses():
 
 def test_each_fault_of_the_table_is_here():
     assert {*FAULTS, "filament_error", "reset"} == set(GUARDS)
+
+
+def test_a_pause_that_hangs_stops_nothing_and_is_asked_for_once(monkeypatch):
+    """Hooks of other plugins run in it."""
+    monkeypatch.setattr(print_guard, "PAUSING_SECONDS", 0.01)
+    may_go_on, pauses = threading.Event(), []
+
+    class Hanging(Printing):
+        def pause(self):
+            pauses.append(threading.current_thread())
+            assert may_go_on.wait(20)
+            super().pause()
+
+    printing = Hanging()
+    for _ in range(3):
+        printing.take({"state": {"status": "off"}})
+    (thread,) = pauses
+    assert thread is not threading.current_thread()
+    # what it is for is told, and nothing else has happened yet
+    assert len(printing.told) == 1 and printing.causes == ["off"]
+    assert printing.pauses == 0
+    may_go_on.set()
+    thread.join(20)
+    printing.take({"state": {"status": "off"}})
+    assert printing.pauses == len(pauses) == 1

@@ -1,39 +1,22 @@
 """A refused line pauses a print once, and again only when it is news."""
 
-from types import SimpleNamespace
-
 import pytest
 
 pytest.importorskip("octoprint")
 
-from octoprint_rrfmodel.guard.print_guard import LET_GO_SECONDS, PrintGuard
+from octoprint_rrfmodel.guard.print_guard import LET_GO_SECONDS
 from octoprint_rrfmodel.rrf.gcode.file_place import Place
+
+from .guarded import GuardedPrint
 
 UNHOMED = "refused_move", "G1: insufficient axes homed"
 
 
-class Rig:
-    """A guard, OctoPrint's print, and a clock."""
+class Rig(GuardedPrint):
+    """A print that is paused, as it is behind each line that was refused."""
 
     def __init__(self, off=()):
-        self.now = 0.0
-        self.told = []
-        self.model = {}
-        printer = SimpleNamespace(
-            is_pausing=lambda: False,
-            is_cancelling=lambda: False,
-            is_finishing=lambda: False,
-            is_printing=lambda: False,
-            is_paused=lambda: True,
-        )
-        self.guard = PrintGuard(
-            lambda: printer,
-            lambda: True,
-            lambda: self.model,
-            is_on=lambda group, code: code not in off,
-            tell=lambda code, detail: self.told.append((code, detail)),
-            clock=lambda: self.now,
-        )
+        super().__init__(off, is_paused=True)
 
 
 def test_once():

@@ -25,7 +25,7 @@ def test_nothing_is_written_down_at_first(journal):
     journal.forget()
 
 
-def test_outlives_the_plugins_data_folder(folders, journal):
+def test_row_32_outlives_the_plugins_data_folder(folders, journal):
     journal.write({"uppercase": {"added": ["M409"]}})
     shutil.rmtree(folders[1])
     folders[1].mkdir()

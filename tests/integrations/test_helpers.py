@@ -49,7 +49,7 @@ def query(questions):
     return Helpers(dict, nothing, questions, command=nothing, status=nothing, objects=nothing).query
 
 
-def test_callback_that_waits_holds_up_nobody(questions, query):
+def test_row_36_callback_that_waits_holds_up_nobody(questions, query):
     called, may_go, thread = threading.Event(), threading.Event(), []
 
     def callback(future):

@@ -1,5 +1,6 @@
 """An emergency stop is sent so that it is read at once, and says truthfully when that is."""
 
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -8,9 +9,11 @@ pytest.importorskip("octoprint")
 
 from octoprint_rrfmodel.guard.recovery import Recovery
 from octoprint_rrfmodel.link.link import Doing
+from octoprint_rrfmodel.link.serial import emergency
 from octoprint_rrfmodel.link.serial.queued import QueuedCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
 from octoprint_rrfmodel.rrf.views.machine import Machine
+from tests.support.waiting import wait_for
 
 
 class Comm:
@@ -56,7 +59,7 @@ def test_nothing_else_brings_one(rig):
     assert rig.notes == []
 
 
-def test_diagnostics_are_numbered_so_that_they_come_in_their_turn(rig):
+def test_row_19_diagnostics_are_numbered_so_that_they_come_in_their_turn(rig):
     comm = rig.link.connection
     assert comm._checksum_requiring_commands == ["M110", "M122"]
     rig.link.is_known_now(comm)
@@ -75,7 +78,7 @@ def test_diagnostics_are_numbered_so_that_they_come_in_their_turn(rig):
         ("3.5.3", None, []),
     ],
 )
-def test_says_that_it_waits(version, doing, told):
+def test_row_19_says_that_it_waits(version, doing, told):
     notices = []
     notifications = SimpleNamespace(tell=lambda *notice: notices.append(notice))
     machine = Machine({"boards": [{"firmwareVersion": version}]})
@@ -83,3 +86,38 @@ def test_says_that_it_waits(version, doing, told):
     recovery.halted(doing)
     assert recovery.is_wanted
     assert notices == told
+
+
+class Hooked(Comm):
+    """A connection that stops by itself, and OctoPrint's printer, whose hooks may hang."""
+
+    def __init__(self, hangs):
+        super().__init__()
+        self._connection_closing = False
+        self._goes_on = threading.Event()
+        if not hangs:
+            self._goes_on.set()
+
+    def commands(self, lines, tags, force):
+        assert lines == ["M112"] and force
+        self._goes_on.wait(20)
+        self._trigger_emergency_stop()
+
+    def _trigger_emergency_stop(self):
+        if not self._connection_closing:
+            self._connection_closing = True
+            self.wire += b"M112\n"
+
+
+@pytest.mark.parametrize("hangs", [False, True])
+def test_goes_past_what_hangs(monkeypatch, hangs):
+    monkeypatch.setattr(emergency, "HUNG_SECONDS", 0.05 if hangs else 20)
+    comm, notes = Hooked(hangs), []
+    link = SerialLink(lambda: comm, dict, lambda: 100.0, notify=lambda *note: notes.append(note))
+    link.is_known_now(comm)
+    link.stop_now({"api:x"})
+    wait_for(lambda: b"M112" in comm.wire, 10, "the emergency stop")
+    # in its usual way OctoPrint's hook does both
+    assert comm.wire == (b"\nM112\n" if hangs else b"M112\n")
+    assert notes == ([("halted", None)] if hangs else [])
+    comm._goes_on.set()

@@ -39,7 +39,7 @@ def own_names():
 
 
 @pytest.mark.parametrize("number", ["", "0", "12"])
-def test_each_name_of_octoprints_own_is_reserved(number):
+def test_row_17_each_name_of_octoprints_own_is_reserved(number):
     names = own_names()
     assert {"bed", "chamber"} & names
     assert [name for name in names if not RESERVED.fullmatch(name + number)] == []

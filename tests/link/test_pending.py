@@ -81,11 +81,12 @@ def test_what_a_print_holds_back_counts_too(rig):
 
 
 def test_from_the_sending_to_the_answer_after_the_ok(rig):
-    rig.link.awaited, rig.link.awaited_command = "M1234", "M1234"
+    rig.link.connection = rig.comm
+    rig.link.awaits("M1234", "M1234")
     rig.ask()
     assert not rig.known.is_current()
     rig.now += 1
-    rig.link.acknowledged(False)
+    rig.link.acknowledged()
     assert not rig.known.is_current()
     rig.ask()
     assert rig.known.is_current()

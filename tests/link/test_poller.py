@@ -8,7 +8,9 @@ from octoprint_rrfmodel.link.known import Known
 from octoprint_rrfmodel.link.poller import ANSWER_SECONDS, Poller
 from octoprint_rrfmodel.rrf.follow.follower import LIVE_ROOT, Follower
 from octoprint_rrfmodel.rrf.follow.live import LIVE_KEYS
+from octoprint_rrfmodel.rrf.follow.rows import Rows
 from octoprint_rrfmodel.rrf.wire.line import find_reply
+from octoprint_rrfmodel.simulator.board import Board as SimulatedBoard
 
 from ..rrf.board import Board
 
@@ -18,12 +20,17 @@ MOST_POLLS = 120
 class Line:
     """A link that is free, and notes what it is asked."""
 
+    given_up = 0
+
     expects_refusal = False
     settled_at = target_command_at = 0.0
 
     def __init__(self):
         self.asked = []
         self.streams = False
+
+    def give_up(self):
+        self.given_up += 1
 
     def ask(self, request):
         self.asked.append(request)
@@ -55,7 +62,7 @@ class Rig:
         self.number = 0
         self.taken = []
         self.board = board or Board()
-        self.line, self.follower = Line(), Follower()
+        self.line, self.follower = Line(), Follower(Rows(lambda: self.now))
         self.known = Known(self.follower, self.line, lambda: self.now)
         self.poller = Poller(
             self.follower,
@@ -235,7 +242,7 @@ def test_age_is_that_of_the_oldest_part(rig):
     assert rig.line.asked[-1] == LIVE_ROOT
 
 
-def test_each_poll_is_counted_once_by_what_became_of_it(rig):
+def test_row_28_each_poll_is_counted_once_by_what_became_of_it(rig):
     """However it ends, and whoever asked: the model, the card or a question."""
     for ending in ("reply", "no room", "spoilt", "silence", "gone"):
         for is_question in (False, True):
@@ -257,3 +264,60 @@ def test_each_poll_is_counted_once_by_what_became_of_it(rig):
             else:
                 rig.ok()
     assert sum(rig.follower.counters.values()) == rig.poller.polls
+
+
+BAUD = 115200
+
+
+class SlowRig(Rig):
+    """The same on a line of 115200 baud; ``factor`` is by how much it is faster than it says."""
+
+    def __init__(self, factor=1.0):
+        # its live root is longer than a part may be
+        super().__init__(Board(SimulatedBoard("idex").data))
+        self.factor = factor
+        self.line.rate = lambda: BAUD
+        self.poller.identified()
+
+    def serve(self, polls=1):
+        for _ in range(polls):
+            text = self.board.reply(self.send())
+            self.now += len(text) * 10 / BAUD / self.factor
+            self.hear(text)
+            self.ok()
+
+
+def test_on_a_slow_line_parts_are_asked_for_alone():
+    rig = SlowRig().ready()
+    rig.line.streams = True
+    rig.serve(1)
+    asked = len(rig.line.asked)
+    rig.serve(40)
+    assert LIVE_ROOT not in rig.line.asked[asked:]
+    assert {"state", "heat.heaters[].state"} <= {each.key for each in rig.line.asked[asked:]}
+    assert rig.line.polls_alone
+    assert not rig.poller.is_stale()
+    rig.line.streams = False
+    rig.serve(3)
+    assert LIVE_ROOT in rig.line.asked[-3:]
+
+
+def test_a_line_that_is_faster_than_it_says_is_asked_for_all():
+    rig = SlowRig(factor=10).ready()
+    rig.line.streams = True
+    rig.serve(1)
+    asked = len(rig.line.asked)
+    rig.serve(10)
+    assert set(rig.line.asked[asked:]) == {LIVE_ROOT}
+    assert not rig.line.polls_alone
+
+
+def test_what_the_firmware_says_in_words_brings_the_guards_parts_at_once():
+    rig = SlowRig().ready()
+    rig.line.streams = True
+    rig.serve(20)
+    rig.poller.heard("fault")
+    began_at, asked = rig.now, len(rig.line.asked)
+    rig.serve(2)
+    assert {each.key for each in rig.line.asked[asked:]} == {"state", "heat.heaters[].state"}
+    assert rig.now - began_at < 0.3

@@ -102,7 +102,7 @@ class Bench:
         self.card = SdCard(
             self.plan,
             job,
-            SimpleNamespace(connection=self.comm),
+            SimpleNamespace(connection=self.comm, later=lambda function: function()),
             model=lambda: self.model,
             is_reworded=lambda row: row not in self.switched_off,
         )
@@ -400,6 +400,23 @@ def test_a_print_has_one_end_and_the_right_one(bench, state, how, told):
     bench.now += 60
     bench.status("idle")
     assert bench.card.fill() == SWALLOWED
+
+
+def test_job_right_behind_a_cancelled_one_is_another(bench):
+    """The same file, begun at the machine before any news were without a job."""
+    alias = bench.job_of_the_machine()
+    bench.begins(alias)
+    while bench.card.fill() != SWALLOWED:
+        pass
+    bench.card.translate("M25", "M25", CANCEL)
+    bench.comm.state = "cancelling"
+    bench.hear(DONE, CANCELLED)
+    bench.comm.state = "operational"
+    bench.status("processing")
+    assert bench.hear("SD printing byte 300/500") == ["SD printing byte 300/500\n"]
+    # and paused there it is nobody's to end
+    bench.status("paused")
+    assert bench.sent == []
 
 
 def test_end_that_nobody_says_more_of_is_an_end(bench):

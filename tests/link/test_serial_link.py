@@ -149,7 +149,7 @@ def test_a_command_that_was_dropped_on_its_way_out_holds_nothing_up(rig):
     assert (rig.link.awaited, rig.comm._long_running_command) == (None, False)
 
 
-def test_blocked_says_heating_only_where_the_line_waits_for_heat(rig):
+def test_row_20_blocked_says_heating_only_where_the_line_waits_for_heat(rig):
     rig.send("M190 S60", "M190")
     assert rig.link.blocked() == "heating"
     rig.hear("ok")
@@ -185,6 +185,21 @@ def test_another_firmware_is_none_of_its_business():
     rig.received.on_firmware_info(rig.comm, "Marlin 2.1", {})
     rig.send("G28", "G28")
     assert (rig.link.is_rrf, rig.link.doing(), rig.notes) == (False, None, [])
+
+
+def test_is_asked_about_no_line_of_another_firmware_until_it_is_one_of_ours():
+    """1.11 tells of firmware for whatever line has a NAME in it, the wrong one first perhaps."""
+    rig = Rig()
+    received, queuing = {"other": 1, "rrfmodel": 2}, {"rrfmodel": 3}
+    rig.comm._received_message_hooks = received
+    rig.comm._gcode_hooks = {"queuing": queuing, "sent": {}}
+    for _ in range(2):
+        rig.received.on_firmware_info(rig.comm, "Marlin 2.1", {})
+        assert rig.comm._received_message_hooks == {"other": 1}
+        assert rig.comm._gcode_hooks == {"queuing": {}, "sent": {}}
+    rig.received.on_firmware_info(rig.comm, FIRMWARE, {"FIRMWARE_NAME": FIRMWARE})
+    assert rig.comm._received_message_hooks is received
+    assert rig.comm._gcode_hooks["queuing"] is queuing
 
 
 def test_has_every_member_of_the_seam():
@@ -228,3 +243,52 @@ def test_waits_for_what_octoprint_takes_for_no_command(rig, cmd, gcode, waits, s
     rig.send(cmd, gcode)
     assert bool(cleared) == (waits and not setting)
     assert (rig.link.awaited is not None) == (waits or gcode is not None)
+
+
+class Later:
+    """The thread on which other plugins' hooks run, as a list that a test works through."""
+
+    def __init__(self):
+        self.calls = []
+        self.queued = []
+        self.link = SerialLink(lambda: self, dict, lambda: 100.0, later=self.later)
+
+    def later(self, function, *arguments):
+        self.calls.append((function, arguments))
+
+    def commands(self, lines, tags, force=False):
+        self.queued.append(lines)
+
+    def go_on(self):
+        while self.calls:
+            function, arguments = self.calls.pop(0)
+            function(*arguments)
+
+
+def test_what_is_handed_over_stays_in_order():
+    later = Later()
+    later.link.connection = "one"
+    later.link.ask(SimpleNamespace(line='M409 K"heat"'))
+    later.link.send_later(["G28"], set())
+    assert later.queued == []
+    later.go_on()
+    assert later.queued == ["M105", ["G28"]]
+
+
+def test_polls_that_pile_up_behind_a_hook_are_one_and_the_newest():
+    later = Later()
+    for key in ("heat", "move", "state"):
+        later.link.ask(SimpleNamespace(line=f'M409 K"{key}"'))
+    # the one that has hung leaves first
+    assert later.link.take_asked() == 'M409 K"state"'
+    later.go_on()
+    assert later.queued == []
+
+
+def test_nothing_that_was_to_be_sent_goes_into_the_next_connection():
+    later = Later()
+    later.link.connection = "one"
+    later.link.send_later(["G28"], set())
+    later.link.connection = "another"
+    later.go_on()
+    assert later.queued == []

@@ -6,11 +6,13 @@ import pytest
 
 pytest.importorskip("octoprint")
 
+from octoprint_rrfmodel.link.heater_ages import HeaterAges
 from octoprint_rrfmodel.link.link import Doing
 from octoprint_rrfmodel.link.status import PluginStatus, worth_telling
+from octoprint_rrfmodel.rrf.follow.follower import Warmed
 
 
-def state_of(doing):
+def state_of(doing, heater_ages=None):
     follower = SimpleNamespace(
         protocol="M409",
         ready=True,
@@ -22,14 +24,23 @@ def state_of(doing):
     return PluginStatus(
         lambda: "1",
         SimpleNamespace(
-            kind="serial", is_operational=True, is_rrf=False, rewritten=0, doing=lambda: doing
+            kind="serial",
+            protocol=None,
+            is_operational=True,
+            is_rrf=False,
+            rewritten=0,
+            doing=lambda: doing,
         ),
         SimpleNamespace(
             follower=follower, polls=0, bytes=0, is_stale=lambda: False, why_silent=lambda: None
         ),
-        known=SimpleNamespace(age=lambda: 0.5, now=lambda: 106.14),
+        known=SimpleNamespace(age=lambda: 0.5, ages=dict, now=lambda: 106.14),
         warnings=list,
         is_first_run=lambda: False,
+        heater_ages=lambda: heater_ages or {},
+        beside=lambda: None,
+        simulated_file=lambda: None,
+        jobs=lambda: 0,
     )()
 
 
@@ -53,3 +64,20 @@ def test_what_takes_long_is_worth_a_message_and_a_prints_lines_are_not():
     assert homing != quiet
     # the time goes on by itself
     assert worth_telling(state_of(Doing("G28", "homing", 90.0))) == homing
+    # and so does a heater's
+    assert worth_telling(state_of(None, {"0": 1.2})) == quiet
+
+
+def test_how_old_a_temperature_is_that_the_line_has_told():
+    now = [100.0]
+    ages = HeaterAges(lambda: now[0])
+    ages.warmed(Warmed({}, frozenset((1, 0))))
+    now[0] = 101.5
+    ages.warmed(Warmed({}, frozenset((1,))))
+    now[0] = 102.0
+    assert ages() == {"0": 2.0, "1": 0.5}
+    ages.replied(None, 101.0)
+    assert ages() == {}
+    ages.warmed(Warmed({}, frozenset((1,))))
+    ages.forgotten()
+    assert ages() == {}

@@ -3,7 +3,7 @@
 import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from any side
 import pytest
 
-from octoprint_rrfmodel.host.tags import STATUS_TAG
+from octoprint_rrfmodel.host.tags import COMMAND_TAG, SCRIPT_TAG, STATUS_TAG
 from octoprint_rrfmodel.web.moonraker.gcode_store import MOST_LINES, GcodeStore
 
 POLL = 'M409 K"" F"d99fin"'
@@ -113,7 +113,7 @@ def test_the_oldest_go(line):
     assert line.kept()[0] == ("response", "line 3")
 
 
-def test_passwords_are_kept_nowhere(line):
+def test_row_35_passwords_are_kept_nowhere(line):
     line.store.sent('M587 S"shed" P"swordfish"', {"source:api"})
     line.log("<Own SSID: shed password: swordfish", "<Error: Bad command: M551 Pswordfish")
     assert line.kept() == [
@@ -122,3 +122,39 @@ def test_passwords_are_kept_nowhere(line):
         ("response", "Error: Bad command: M551 ***"),
     ]
     assert line.responded == ["Own SSID: shed password: ***", "Error: Bad command: M551 ***"]
+
+
+def test_what_a_person_asked_for_is_told_apart_until_its_ok(line):
+    line.store.sent("M98", {SCRIPT_TAG})
+    line.log(">M98", "<Warning: nothing", "<ok", "<Later")
+    line.store.sent("M115", {"source:api"})
+    line.log("<FIRMWARE_NAME: x", "<ok")
+    line.store.sent("M106", {COMMAND_TAG})
+    line.log("<Error: no fan")
+    asked = [(entry["message"], entry["asked"]) for entry in line.store.since(0)]
+    assert asked == [
+        ("M98", True),
+        ("Warning: nothing", True),
+        ("Later", False),
+        ("M115", False),
+        ("FIRMWARE_NAME: x", False),
+        ("M106", True),
+        ("Error: no fan", True),
+    ]
+
+
+def test_lines_have_numbers_by_which_the_newer_ones_are_asked(line):
+    for number in range(3):
+        line.store.sent(f"M{number}", set())
+    first, *later = line.store.since(0)
+    assert line.store.since(first["number"]) == later
+    assert set(line.store.latest(1)[0]) == {"message", "time", "type"}
+
+
+def test_what_octoprint_asks_about_the_card_is_no_news(line):
+    line.store.sent("M27", {"trigger:comm.poll_sd_status"})
+    line.log("<Not SD printing.", "<ok")
+    assert line.kept() == []
+    line.store.sent("M27", {"source:api"})
+    line.log("<Not SD printing.", "<ok")
+    assert line.kept() == [("command", "M27"), ("response", "Not SD printing.")]

@@ -47,6 +47,12 @@ FAILURES = [
         -32700,
         None,
     ),
+    (
+        "an id that is too large for a number",
+        '{"jsonrpc": "2.0", "method": "subtract", "id": 1e999}',
+        -32700,
+        None,
+    ),
     ("a method that fails", json.dumps(call(params={"minuend": "a", "subtrahend": 1})), -32603, 1),
     ("an empty batch", "[]", -32600, None),
     ("a batch too large", json.dumps([call(params=NUMBERS)] * 21), -32600, None),

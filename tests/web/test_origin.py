@@ -78,7 +78,7 @@ def test_own_page(app, headers, origin):
 
 
 @pytest.mark.parametrize("headers, origin", FOREIGN)
-def test_foreign_page(app, headers, origin):
+def test_row_33_foreign_page(app, headers, origin):
     assert not is_own(app, request(**headers), origin)
 
 

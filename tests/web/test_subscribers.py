@@ -1,6 +1,8 @@
 """Who is told what, when, and how often it is computed; with a clock of the test's own."""
 
 import json
+from concurrent.futures import Future
+from functools import partial
 
 import pytest
 
@@ -53,7 +55,22 @@ class Bench:
         self.loop = Loop()
         self.target = 0
         self.message = ""
-        self.subscribers = Subscribers(self.world, self.loop)
+        self.held = None
+        """What is worked on off the loop, where a test lets that take its time."""
+        self.subscribers = Subscribers(self.world, self.loop, self.run)
+
+    def run(self, function, then):
+        work = partial(self.do, function, then)
+        if self.held is None:
+            work()
+        else:
+            self.held.append(work)
+
+    @staticmethod
+    def do(function, then):
+        done = Future()
+        done.set_result(function())
+        then(done)
 
     def world(self):
         model = {
@@ -67,8 +84,13 @@ class Bench:
 
     def subscribe(self, wanted):
         connection = Connection()
-        status, _ = self.subscribers.subscribe(connection, klipper.wanted_of(wanted))
-        return connection, status
+        return connection, self.subscribe_again(connection, wanted)
+
+    def subscribe_again(self, connection, wanted):
+        wanted = klipper.wanted_of(wanted)
+        status = klipper.status(self.world(), wanted)
+        self.subscribers.subscribe(connection, wanted, status)
+        return status
 
     def heat(self, target):
         self.target = target
@@ -129,17 +151,17 @@ def test_one_s_quiet_time_is_not_another_s(bench):
 
 def test_new_subscription_replaces_the_old(bench):
     connection, _ = bench.subscribe(BED)
-    bench.subscribers.subscribe(connection, {"display_status": ("message",)})
+    bench.subscribe_again(connection, {"display_status": ("message",)})
     bench.heat(50)
     assert connection.told == []
     assert len(bench.subscribers) == 1
 
 
-def test_nothing_is_kept_of_what_nobody_wants_any_more(bench):
+def test_row_34_nothing_is_kept_of_what_nobody_wants_any_more(bench):
     connection, other = Connection(), Connection()
     for number in range(100):
-        bench.subscribers.subscribe(connection, {"heater_bed": (f"field{number}",)})
-        bench.subscribers.subscribe(other, {"heater_bed": ("target",)})
+        bench.subscribe_again(connection, {"heater_bed": (f"field{number}",)})
+        bench.subscribe_again(other, {"heater_bed": ("target",)})
         bench.heat(number + 1)
     # the one of each connection
     assert len(bench.subscribers._latest) == 2
@@ -151,7 +173,7 @@ def test_nothing_is_kept_of_what_nobody_wants_any_more(bench):
 
 def test_empty_subscription_and_end_of_connection(bench):
     connection, _ = bench.subscribe(BED)
-    assert bench.subscribers.subscribe(connection, {})[0] == {}
+    assert bench.subscribe_again(connection, {}) == {}
     other, _ = bench.subscribe(BED)
     bench.subscribers.unsubscribe(other)
     bench.heat(50)
@@ -203,8 +225,41 @@ def test_who_is_left_in_peace_is_told_when_another_goes(bench):
         def send(self, text):
             bench.subscribers.unsubscribe(self)
 
-    bench.subscribers.subscribe(Dropped(), {"heater_bed": ("target",), "display_status": None})
+    bench.subscribe_again(Dropped(), {"heater_bed": ["target"], "display_status": None})
     bench.message = "seen"
     bench.heat(2)
     bench.loop.pass_time(0.16)
     assert first.differences == [{"heater_bed": {"target": 1.0}}, {"heater_bed": {"target": 2.0}}]
+
+
+def test_news_while_others_are_worked_out_are_told_behind_them(bench):
+    connection, _ = bench.subscribe(BED)
+    bench.held = []
+    for target in (1, 2, 3):
+        bench.heat(target)
+    # once, however much comes meanwhile
+    (work,) = bench.held
+    bench.target = 4
+    work()
+    assert connection.differences == [{"heater_bed": {"target": 4.0}}]
+    bench.heat(5)
+    assert len(bench.held) == 1
+    bench.loop.pass_time(0.3)
+    bench.held[1]()
+    assert connection.differences[1:] == [{"heater_bed": {"target": 5.0}}]
+
+
+def test_what_was_worked_out_for_one_that_is_gone_is_told_nobody(bench):
+    gone, _ = bench.subscribe(BED)
+    other, _ = bench.subscribe(BED)
+    bench.held = []
+    bench.heat(1)
+    bench.subscribers.unsubscribe(gone)
+    bench.subscribe_again(other, {"display_status": ["message"]})
+    bench.held[0]()
+    assert gone.told == other.told == []
+    # and the next change is worked out as ever
+    bench.message = "seen"
+    bench.subscribers.changed()
+    bench.held[-1]()
+    assert other.differences == [{"display_status": {"message": "seen"}}]

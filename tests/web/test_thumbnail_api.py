@@ -1,8 +1,6 @@
 """Pictures that come broken, where no board spoils what it sends."""
 
-import asyncio
 import base64
-import threading
 
 import pytest
 
@@ -12,6 +10,7 @@ from octoprint_rrfmodel.host.answers import RequestRefused
 from octoprint_rrfmodel.rrf.card.thumbnail import Piece, PrintFile, Thumbnail
 from octoprint_rrfmodel.rrf.wire.request import FileRequest
 from octoprint_rrfmodel.web.thumbnail_api import ATTEMPTS, Thumbnails
+from tests.support.coroutines import run
 
 PATH = "0:/gcodes/a.gcode"
 JPEG = b"\xff\xd8\xff\xe0 what is between \xff\xd9"
@@ -43,15 +42,6 @@ class Card:
         text = self._texts[min(self.fetched, len(self._texts)) - 1]
         is_last = at + 8 >= len(text)
         return Piece(PATH, request.offset, text[at : at + 8], 0 if is_last else 108 + at, 0)
-
-
-def run(coroutine):
-    """Return what it does, in a thread: this one may have a loop of the browser's."""
-    results = []
-    thread = threading.Thread(target=lambda: results.append(asyncio.run(coroutine)))
-    thread.start()
-    thread.join()
-    return results[0]
 
 
 def fetch(*texts, times=1):

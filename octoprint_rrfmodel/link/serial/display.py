@@ -73,6 +73,18 @@ class Display:
             merged.update(known.others)
         return merged
 
+    def is_shown(self):
+        """Return whether OctoPrint shows each heater and sensor that is known, and its target."""
+        known, knows_targets = self._known.heat()
+        if known is None or not knows_targets:
+            return False
+        shown = self._link.connection.last_temperature
+        heaters = [(shown.tools.get(number), value) for number, value in known.tools.items()]
+        slots = {"bed": known.bed, "chamber": known.chamber}
+        heaters += [(getattr(shown, name), value) for name, value in slots.items() if value]
+        shows_others = not known.others or known.others.keys() <= shown.custom.keys()
+        return shows_others and all(_agree(*heater) for heater in heaters)
+
     ##~~ what happens without OctoPrint's knowing
 
     def show_target(self, heater, target):
@@ -104,3 +116,8 @@ class Display:
         self._fire(Events.TOOL_CHANGE, {"old": old, "new": number})
         if SHOWS_TOOL:
             comm._callback.on_comm_position_update({"t": number})
+
+
+def _agree(shown, known):
+    """Return whether a heater is shown, with the target that is known."""
+    return bool(shown) and shown[0] is not None and (shown[1] or 0) == (known[1] or 0)

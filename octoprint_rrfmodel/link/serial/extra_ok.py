@@ -7,6 +7,8 @@ And the one that was late: it comes after the question whose ``ok`` OctoPrint ge
 (``lost_ok``), and in front of the answer.
 """
 
+from ...rrf.wire.gcode_words import KEEPS_MODES
+
 COUNTS_ALL = ("_unknownCommandsNeedAck", "_unknown_commands_need_ack")
 """Attribute of OctoPrint's connection, in 1.11 and in 2.0: whether it waits for an ok behind what
 it takes for no command."""
@@ -20,8 +22,8 @@ class ExtraOk:
 
     def __init__(self):
         self.awaits = None
-        """``error``, ``ok``, ``extra`` or ``answer``: what decides next; ``None`` where nothing may
-        come."""
+        """``error``, ``ok``, ``extra``, ``answer`` or ``box``: what decides next; ``None`` where
+        nothing may come."""
         self._answer = ()
 
     def asks(self, answer):
@@ -29,21 +31,35 @@ class ExtraOk:
         self._answer = answer
         self.awaits = "answer"
 
+    def answers_a_box(self):
+        """Note that an answer to a message box goes out past OctoPrint."""
+        self.awaits = "box"
+
+    @property
+    def is_behind_a_box(self):
+        """Whether the next ``ok`` may be that answer's."""
+        return self.awaits == "box"
+
     def given_up(self):
         """Note that OctoPrint goes on without the ``ok`` that it has waited for."""
         if self.awaits == "answer":
             self.awaits = None
 
     def sending(self, cmd, gcode):
-        """Note that a command goes out; only a move with M121 behind it may bring one."""
+        """Note that a command goes out; only a move with M121 behind it may bring one.
+
+        While nothing is awaited other commands than M120 change nothing.
+        """
         if self.awaits not in ("extra", "answer"):
-            self.awaits = "error" if gcode == "M120" and " G1 " in cmd else None
+            self.awaits = "error" if gcode == KEEPS_MODES and " G1 " in cmd else None
 
     def is_in(self, line):
         """Return whether a line is the ``ok`` too many; call it with each one while it awaits."""
         awaits = self.awaits
         if awaits == "answer":
             return self._is_late(line)
+        if awaits == "box":
+            return False
         if awaits == "extra":
             self.awaits = None
             return line.strip() == "ok"

@@ -1,9 +1,14 @@
-"""What of OctoPrint's connection is set for RepRapFirmware as long as it lasts.
+"""What of OctoPrint's connection is set for as long as it lasts: for RepRapFirmware, for others.
 
 None of it is written to OctoPrint's settings.
 """
 
 DIAGNOSTICS = "M122"
+
+OWN = "rrfmodel"
+"""The plugin's name among those whose hooks a connection calls."""
+
+_LEFT = "_rrfmodel_left"
 
 
 def fit(comm):
@@ -16,6 +21,33 @@ def fit(comm):
     numbered = getattr(comm, "_checksum_requiring_commands", None) or ()
     if DIAGNOSTICS not in numbered:
         comm._checksum_requiring_commands = [*numbered, DIAGNOSTICS]
+
+
+def leave_alone(comm):
+    """Have OctoPrint ask the plugin about no line of a connection: it isn't RepRapFirmware's.
+
+    Each connection has its own mappings of hooks. They are replaced, not changed: other threads
+    may be going through them.
+    """
+    received = getattr(comm, "_received_message_hooks", None)
+    phases = getattr(comm, "_gcode_hooks", None)
+    if received is None or phases is None or hasattr(comm, _LEFT):
+        return
+    setattr(comm, _LEFT, (received, phases))
+    comm._received_message_hooks = _without_own(received)
+    comm._gcode_hooks = {phase: _without_own(hooks) for phase, hooks in phases.items()}
+
+
+def look_again(comm):
+    """Undo ``leave_alone``: what told something else before is RepRapFirmware after all."""
+    left = getattr(comm, _LEFT, None)
+    if left is not None:
+        comm._received_message_hooks, comm._gcode_hooks = left
+        delattr(comm, _LEFT)
+
+
+def _without_own(hooks):
+    return {name: hook for name, hook in hooks.items() if name != OWN}
 
 
 def begin_a_line(comm):

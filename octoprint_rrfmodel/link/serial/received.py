@@ -6,16 +6,31 @@ or raises.
 
 from ...host.tags import SWALLOWED
 from ...rrf.card.wording import BEGINNINGS, LIST_BEGINS
-from ...rrf.gcode.blocking import SETTLING
 from ...rrf.wire.errors import is_halted, is_serious
 from ...rrf.wire.heard import TELLING, heard
 from ...rrf.wire.line import VOLTAGE_WARNING, find_reply, without_warning
 from ...rrf.wire.report import is_report
+from .fitting import leave_alone
+from .own_requests import POLL
 
 REPORTS = frozenset("TBC")
 """First letters of a temperature report that comes by itself."""
 
-ATTENDED = TELLING | REPORTS | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
+OK = "ok"
+
+PLAIN_OK = len("ok\r\n")
+"""The longest acknowledgement without anything behind it."""
+
+NOISE = "\0\ufffd"
+"""A byte of noise, and what OctoPrint makes of one that is no text: it doesn't find the ok that one
+of them stands in."""
+
+WITHOUT_NOISE = str.maketrans("", "", NOISE)
+
+NOISY = ("o", *NOISE)
+"""How a line may begin that is an ok but for some noise."""
+
+ATTENDED = TELLING | REPORTS | set(NOISE) | {begins[0] for begins in (*BEGINNINGS, LIST_BEGINS)}
 """First letters of lines that are looked at; most lines begin otherwise and cost little."""
 
 
@@ -55,6 +70,8 @@ class ReceivedLines:
         if "reprapfirmware" in (firmware_name or "").lower():
             link.is_known_now(comm)
             self._notify("identified")
+        else:
+            leave_alone(comm)
 
     ##~~ octoprint.comm.protocol.gcode.received
 
@@ -64,16 +81,21 @@ class ReceivedLines:
         if comm is not link.connection:
             return line
         if line:
-            link.heard_now()
+            # a call less for each line
+            link.heard_at = link.clock()
         if '{"' not in line:
-            if line[:1] == "o" and link.extra_ok.awaits is None:
-                if line[3:4] in REPORTS:
+            first = line[:1]
+            if first == "o" and link.extra_ok.awaits is None and line[1:2] == "k":
+                if len(line) > PLAIN_OK and line[3:4] in REPORTS:
                     self._notify("report", line)
                 if link.awaited is not None and line.startswith("ok"):
-                    link.acknowledged(link.awaited in SETTLING)
+                    if link.own.awaited:
+                        line = self._own_is_through(line)
+                    link.acknowledged()
                 return line
             if (
-                line[:1] in ATTENDED
+                first in ATTENDED
+                or first == "o"
                 or link.extra_ok.awaits is not None
                 or link.expects_refusal
                 or self._card.is_talking
@@ -87,14 +109,32 @@ class ReceivedLines:
         if not found.rest:
             return self._card.fill()
         if found.rest.startswith("ok"):
-            link.acknowledged(link.awaited in SETTLING)
+            if link.own.awaited:
+                self._own_is_through(line)
+            link.acknowledged()
         return found.rest
+
+    def _own_is_through(self, line):
+        """Note that a poll, or what stands behind one, is through; return what OctoPrint hears."""
+        own, self._link.own.awaited = self._link.own.awaited, None
+        if own == POLL:
+            self._notify("poll_acknowledged")
+            return line
+        # OctoPrint asks for temperatures itself, and keeps each that it hears of
+        return OK
 
     def _text(self, comm, line):
         """Return a line that holds no JSON and is no plain ok, as OctoPrint is to read it."""
         link = self._link
-        if line[:1] in TELLING:
+        first = line[:1]
+        if first in NOISY:
+            clean = line.translate(WITHOUT_NOISE)
+            if clean != line and clean.startswith("ok"):
+                return self.on_received(comm, clean)
+        if first in TELLING:
             told = heard(line)
+            if told == "box":
+                link.box.opened()
             if told:
                 self._notify("heard", told)
             if not line:
@@ -102,12 +142,19 @@ class ReceivedLines:
             if line.startswith(VOLTAGE_WARNING):
                 # OctoPrint sees an ok only where a line starts with it, and waits half a minute
                 line = without_warning(line)
-        if is_report(line):
+        elif first in REPORTS and is_report(line):
             self._notify("report", line)
+            if link.extra_ok.awaits is None and not self._card.is_talking:
+                # nothing else is about a report
+                return line
+        if link.box.finds_out(comm, line):
+            return SWALLOWED
         if link.extra_ok.awaits is not None and link.extra_ok.is_in(line):
             return SWALLOWED
         if line.startswith("ok"):
-            link.acknowledged(link.awaited in SETTLING)
+            if link.own.awaited:
+                self._own_is_through(line)
+            link.acknowledged()
             return line
         if link.expects_refusal and ("M409" in line or "M408" in line):
             self._notify("refused", line)

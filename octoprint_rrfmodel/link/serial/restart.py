@@ -96,6 +96,14 @@ def restart(link, printer, last, is_running):
         LOGGER.info("The board was restarted and is connected again")
 
 
+def reconnect(printer, last):
+    """Close OctoPrint's connection and open it again, unless something is printed."""
+    if printer.is_printing() or printer.is_paused():
+        return
+    _close(printer)
+    printer.connect(port=last.port, baudrate=last.baudrate, profile=last.profile)
+
+
 def _restart(link, printer, last, world):
     deadline = time.monotonic() + RETURN_SECONDS
     if not printer().is_operational():

@@ -6,6 +6,7 @@ have them under the same names. ``translate`` runs with whoever queues a command
 """
 
 import collections
+from functools import partial
 
 from ...host.tags import SWALLOWED
 from ...host.version import IS_2
@@ -234,7 +235,7 @@ class SdCard:
             # 2.0 tells which firmware it is only behind the answer to the M21 that came with it
             self._has_asked = True
             if not comm.isSdReady():
-                comm.initSdCard(tags={REFRESH_TAG})
+                self._link.later(partial(comm.initSdCard, tags={REFRESH_TAG}))
         index = self._plan.index
         if index is not None and (self._shown is None or index.files != self._shown.files):
             self._refresh(comm, index)
@@ -247,4 +248,4 @@ class SdCard:
         """Let OctoPrint ask for the list, which it does only while nothing is printed."""
         if comm.isOperational() and not comm.isBusy() and comm.isSdReady():
             self._shown = index
-            comm.refreshSdFiles(tags={REFRESH_TAG})
+            self._link.later(partial(comm.refreshSdFiles, tags={REFRESH_TAG}))

@@ -5,7 +5,7 @@ receiving thread, ``news`` on the worker.
 """
 
 from ...host.version import IS_2
-from ...rrf.card.wording import CANCEL, DONE, RESUMED, WITHHELD, Situation
+from ...rrf.card.wording import CANCEL, DONE, KNOWN, RESUMED, WITHHELD, Situation
 from ...rrf.gcode.operations import Lines
 from ...rrf.views.job import WITHOUT_JOB, CardJob, card_job
 from .origin import PrintOrigin
@@ -139,6 +139,10 @@ class SdJob:
         if worded == WITHHELD:
             self._withheld_at = self._clock()
             return ()
+        if worded == KNOWN:
+            # what comes from here on is another job, of the same file perhaps, and nobody's to end
+            self._asks_again = False
+            self._cancelled_at = None
         if worded not in (CANCEL, DONE, RESUMED):
             return ()
         self._withheld_at = None
@@ -165,8 +169,9 @@ class SdJob:
             return (DONE,) if comm.isSdPrinting() and not _is_between(comm) else ()
         if self._status is None:
             return ()
-        if self._cancelled_at is not None:
-            self._finish_cancelling(job)
+        cancelled_at = self._cancelled_at
+        if cancelled_at is not None:
+            self._finish_cancelling(job, cancelled_at)
         elif job.is_active:
             return self._follow(comm, index, job)
         else:
@@ -190,8 +195,8 @@ class SdJob:
         self._origin.ended_there(comm)
         return (CANCEL,)
 
-    def _finish_cancelling(self, job):
-        if not job.is_active or self._clock() - self._cancelled_at > CANCEL_SECONDS:
+    def _finish_cancelling(self, job, cancelled_at):
+        if not job.is_active or self._clock() - cancelled_at > CANCEL_SECONDS:
             self._cancelled_at = None
         elif job.is_paused and self._asks_again:
             self._asks_again = False

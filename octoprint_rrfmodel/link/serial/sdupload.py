@@ -10,6 +10,7 @@ from octoprint.access.permissions import Permissions
 from octoprint.filemanager import FileDestinations
 
 from ...host.answers import refusal
+from ...host.request_json import json_of
 
 UPLOAD, COMMAND = "api.uploadGcodeFile", "api.gcodeFileCommand"
 """Flask's names of the endpoints that a file can get to the printer by."""
@@ -32,7 +33,7 @@ class UploadRefusal:
             is_refused = request.view_args.get("target") == FileDestinations.SDCARD
         else:
             # in 2.0 a file is copied or moved to the printer, or sent by the old name for that
-            data = request.get_json(silent=True)
+            data = json_of(request)
             data = data if isinstance(data, dict) else {}
             is_refused = (
                 data.get("command") == "uploadSd" or data.get("storage") == FileDestinations.SDCARD

@@ -3,7 +3,9 @@
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE
 from ...rrf.gcode.blocking import TARGETING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
+from ...rrf.wire.gcode_words import KEEPS_MODES
 from .extra_ok import count_ok
+from .own_requests import POLL, STATUS
 
 
 class SentCommands:
@@ -13,14 +15,17 @@ class SentCommands:
     number) and ``poll_acknowledged``; it must only take note and return.
     ``show_target(heater, target)`` shows the target that a translated command sets.
     ``sent(cmd, tags)`` is told of commands that are neither a file's nor the plugin's polls.
+    ``is_shown()`` says whether OctoPrint knows each tool and target: what it asks by its own clock
+    is enough for the temperatures then.
     """
 
-    def __init__(self, link, notify, clock, *, show_target, sent):
+    def __init__(self, link, notify, clock, *, show_target, sent, is_shown=bool):
         self._link = link
         self._notify = notify
         self._clock = clock
         self._show_target = show_target
         self._sent = sent
+        self._is_shown = is_shown
 
     ##~~ octoprint.comm.protocol.gcode.sending
 
@@ -50,14 +55,17 @@ class SentCommands:
         link.awaits(cmd, gcode, tags or ())
         now = link.awaited_since
         link.asks_of_a_file = gcode == "M36" and poll is not None
-        link.extra_ok.sending(cmd, gcode)
-        if gcode in TARGETING or cmd in link.targets:
+        if gcode == KEEPS_MODES or link.extra_ok.awaits is not None:
+            link.extra_ok.sending(cmd, gcode)
+        if gcode in TARGETING:
             link.target_command_at = now
-        if cmd in link.targets:
+        if link.targets and cmd in link.targets:
+            link.target_command_at = now
             self._show_target(*link.targets.pop(cmd))
         if gcode in ("T", "M109"):
             link.tool_command_at = now
         if poll is not None:
+            link.own.awaited = POLL if link.own.is_alone else None
             link.polled.add(cmd)
             # the number that it gets if it gets one, in both versions of OctoPrint
             self._notify("poll_sent", now, getattr(comm, "_current_line", None))
@@ -67,5 +75,6 @@ class SentCommands:
                 self._sent(cmd, tags)
             elif cmd_type != POLL_TYPE:
                 # it leaves when OctoPrint has the ok of the poll in front of it
+                link.own.awaited = STATUS if self._is_shown() else None
                 self._notify("poll_acknowledged")
         return None

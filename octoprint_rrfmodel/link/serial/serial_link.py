@@ -7,31 +7,25 @@ import threading
 from collections import deque
 
 from ...host.tags import POLL_TAG
-from ...rrf.gcode.blocking import MOVES, may_change
+from ...rrf.gcode.blocking import MOVES, SETTLING, is_plain_move, may_change
 from ...rrf.gcode.doing import HEATING, what_of
 from ...rrf.gcode.duration import takes_long
 from ...rrf.wire.gcode_words import words
 from ...rrf.wire.masking import masked
 from ..link import Doing, Link
 from ..terminal import RecentPolls
+from .box_answer import BoxAnswer
+from .card_job import control_card_job
+from .emergency import stop
 from .extra_ok import ExtraOk
-from .fitting import fit
+from .fitting import fit, look_again
 from .lost_ok import LostOk
 from .own_commands import to_queue
+from .own_requests import OwnRequests
 from .pending import is_change_waiting
-from .restart import Connection, restart
+from .restart import Connection, reconnect, restart
 
 STATUS_REQUEST = "M105"
-
-EMERGENCY_STOP = "M112"
-
-CARD_JOB = {
-    "pause": ("pause_print", lambda comm: comm.isPrinting()),
-    "resume": ("resume_print", lambda comm: comm.isPaused()),
-    "cancel": ("cancel_print", lambda comm: comm.isPrinting() or comm.isPaused()),
-}
-"""What is done to a job, to the method of OctoPrint's printer that does it to a print from the
-card, and whether it does anything in the connection's state."""
 
 RUNS_MACROS = frozenset(("T", "M98"))
 """Commands whose macros may extrude."""
@@ -46,18 +40,24 @@ SLOTS = (
 class SerialLink(Link):
     """Knows OctoPrint's connection from its telling that it is RepRapFirmware to its end.
 
-    ``printer()`` and ``profiles()`` are OctoPrint's.
+    ``printer()`` and ``profiles()`` are OctoPrint's. ``later(function, *arguments)`` calls it on
+    the thread on which hooks of other plugins may take their time. ``notify("halted", doing)``
+    only takes note.
     """
 
     kind = "serial"
 
-    def __init__(self, printer, profiles, clock):
+    def __init__(self, printer, profiles, clock, *, later=None, notify=None):
         self._printer = printer
         self._profiles = profiles
-        self._clock = clock
+        self.clock = clock
+        self.later = later or (lambda function, *arguments: function(*arguments))
+        self._notify = notify
         self._card = None
         self._last = None
         self._lost_ok = LostOk(self, clock)
+        self.box = BoxAnswer(self)
+        """The message box that the awaited command waits in."""
         self._asked = deque(maxlen=1)
         self.polled = RecentPolls()
         self.was_identified = threading.Event()
@@ -75,8 +75,10 @@ class SerialLink(Link):
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
         self.awaited_tags = ()
+        self._settles = False
         self.extruded = "", ()
         """The last command that extruded, and its tags: what is refused of it comes later."""
+        self.own = OwnRequests()
         self.awaited_since = 0.0
         self.awaits_long = False
         """Whether the awaited command may take long without a word."""
@@ -92,6 +94,7 @@ class SerialLink(Link):
         """Begin with a connection that has told that it is RepRapFirmware."""
         self.forget()
         fit(comm)
+        look_again(comm)
         self.connection = comm
 
     def awaits(self, cmd, gcode, tags=()):
@@ -99,23 +102,26 @@ class SerialLink(Link):
         self.awaited = gcode
         self.awaited_command = cmd
         self.awaited_tags = tags
+        self.awaited_since = self.heard_at = self.clock()
+        if gcode in MOVES and is_plain_move(cmd):
+            # nearly every line of a print
+            self._settles = self.awaits_long = False
+            if "E" in cmd:
+                self.extruded = cmd, tags
+            return
         if gcode in RUNS_MACROS or ("E" in cmd and (gcode in MOVES or " E" in cmd)):
             self.extruded = cmd, tags
-        self.awaited_since = self.heard_at = self._clock()
+        self._settles = gcode in SETTLING or may_change(gcode, cmd)
         self.awaits_long = gcode is not None and takes_long(cmd, gcode)
         if self.awaits_long:
             # whatever OctoPrint's settings know of it: it asks for nothing meanwhile, and doesn't
             # take a missing ok for a lost one (comm._handle_ok ends that)
             self.connection._long_running_command = True
 
-    def heard_now(self):
-        """Note that the board has said something."""
-        self.heard_at = self._clock()
-
-    def acknowledged(self, settles):
-        """Note that the awaited command is through; ``settles`` if it may have changed much."""
-        if settles or may_change(self.awaited or "", self.awaited_command):
-            self.settled_at = self._clock()
+    def acknowledged(self):
+        """Note that the awaited command is through."""
+        if self._settles:
+            self.settled_at = self.clock()
         self.awaited = None
 
     ##~~ a listener
@@ -140,7 +146,16 @@ class SerialLink(Link):
 
     def ask(self, request):
         self._asked.append(request.line)
-        self._printer().commands(STATUS_REQUEST, tags={POLL_TAG})
+        self.later(self._queue_poll)
+
+    def _queue_poll(self):
+        # the one before may have been hung up, and has taken it along
+        if self._asked:
+            self._printer().commands(STATUS_REQUEST, tags={POLL_TAG})
+
+    def give_up(self):
+        # its place in OctoPrint's queue stays, and goes out as the M105 it is
+        self._asked.clear()
 
     def take_asked(self):
         """Return the line of the question that is to go out now, ``None`` where none is to."""
@@ -152,9 +167,15 @@ class SerialLink(Link):
     def send(self, lines, tags, force=False):
         self._printer().commands(to_queue(lines), tags=tags, force=force)
 
+    def send_later(self, lines, tags):
+        self.later(self._send_to, self.connection, lines, tags)
+
+    def _send_to(self, comm, lines, tags):
+        if comm is self.connection:
+            self.send(lines, tags)
+
     def stop_now(self, tags):
-        # past all queues, as what OctoPrint streams is one
-        self.send([EMERGENCY_STOP], tags, force=True)
+        stop(self, tags, self._notify)
 
     def carried(self, lines, machine):
         """Return lines that OctoPrint sends and shows nothing wrong of.
@@ -179,6 +200,9 @@ class SerialLink(Link):
     def restart(self, is_running):
         restart(self, self._printer, self._last, is_running)
 
+    def reconnect(self):
+        reconnect(self._printer(), self._last)
+
     def blocked(self):
         comm = self.connection
         if comm is None:
@@ -195,9 +219,10 @@ class SerialLink(Link):
         return None
 
     def silent_for(self):
-        if self.connection is None or self.awaited is None or not self.awaits_long:
+        is_busy = self.awaits_long or self.own.report_elsewhere
+        if self.connection is None or self.awaited is None or not is_busy:
             return 0.0
-        return self._clock() - self.heard_at
+        return self.clock() - self.heard_at
 
     def doing(self):
         if self.connection is None or self.awaited is None:
@@ -213,6 +238,9 @@ class SerialLink(Link):
         awaited = self.awaited
         is_under_way = awaited is not None and may_change(awaited, self.awaited_command)
         return is_under_way or is_change_waiting(comm)
+
+    def waits_in_a_box(self):
+        return self.box.is_wanted()
 
     def has_polled(self, command):
         return command in self.polled
@@ -242,17 +270,7 @@ class SerialLink(Link):
         return self.connection is not None and self.connection.isPaused()
 
     def control_card_job(self, action):
-        method, does_it = CARD_JOB[action]
-        comm = self.connection
-        # what it shows as its own print must not end behind its back: it would cancel whatever is
-        # printed by then
-        if comm is None or not comm.isSdFileSelected() or not does_it(comm):
-            return False
-        # and what it still has to say of one that is over is nothing to do with the next
-        if self._card.is_over(comm):
-            return False
-        getattr(self._printer(), method)()
-        return True
+        return control_card_job(action, self.connection, self._printer(), self._card)
 
     def end_job(self):
         return self._card.end_job()

@@ -22,6 +22,7 @@ class SimulatedPort:
         if port != NAME or not settings["enabled"]:
             return None
         from ...simulator.board import Board
+        from ...simulator.device import demo_print
         from ...simulator.port import SimulatedSerial
 
         board = Board(
@@ -30,4 +31,6 @@ class SimulatedPort:
             faults=settings["faults"],
             speed=float(settings["speed"]),
         )
+        if settings["demo_print"]:
+            demo_print.put_on(board.card, [tool["number"] for tool in board.tools()])
         return SimulatedSerial(board, port=port, baudrate=baudrate, timeout=read_timeout)

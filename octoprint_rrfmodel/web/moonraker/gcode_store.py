@@ -2,11 +2,12 @@
 
 import collections
 import re
+import threading
 import time
 
 from octoprint.printer import PrinterCallback
 
-from ...host.tags import STATUS_TAG
+from ...host.tags import COMMAND_TAG, SCRIPT_TAG, STATUS_TAG
 from ...link.terminal import RECEIVED, PollTrace
 from ...rrf.wire.masking import masked
 
@@ -18,11 +19,24 @@ AUTOMATIC = frozenset(("trigger:comm.poll_temperature", "trigger:comm.poll_sd_st
 TEMPERATURES = re.compile(r"(ok )?T\d*:")
 """A report of temperatures, which nobody asked for unless by M105."""
 
+CARD_POLLED = re.compile(r"(?:Not SD printing|SD printing byte)")
+"""What is said to OctoPrint's M27, which it asks by its own clock."""
+
 PLAIN = ("Recv: ok", "<<< ok", "Recv: wait", "<<< wait", "Recv: ", "<<< ", "<<<")
 """Lines that say nothing beyond that a command was taken."""
 
+ASKED = frozenset((COMMAND_TAG, SCRIPT_TAG))
+"""Tags of what a person asked for by the plugin's own means."""
+
+OK = ("Recv: ok", "<<< ok")
+"""How a line begins behind which nothing is said about a command any more."""
+
 SENT_LINE = ("Send", ">>> ")
 """How a line begins that went out; with a G code in it, as most in a print, it is no poll."""
+
+
+MOONRAKERS = ("message", "time", "type")
+"""The members of a line that Moonraker knows."""
 
 
 class GcodeStore(PrinterCallback):
@@ -38,25 +52,35 @@ class GcodeStore(PrinterCallback):
         self._trace = PollTrace(link.has_polled)
         self._responded = responded
         self._wants_temperatures = False
+        self._is_asked = False
+        self._is_polled = False
+        self._lock = threading.Lock()
+        self._number = 0
         self._lines = collections.deque(maxlen=MOST_LINES)
 
     def sent(self, command, tags):
         """Note a command that went out and is no line of a file."""
-        is_asked = AUTOMATIC.isdisjoint(tags)
-        self._wants_temperatures = is_asked and command == "M105"
-        if is_asked:
+        is_anybodys = AUTOMATIC.isdisjoint(tags)
+        self._wants_temperatures = is_anybodys and command == "M105"
+        self._is_asked = not ASKED.isdisjoint(tags)
+        self._is_polled = not is_anybodys
+        if is_anybodys:
             self._note(masked(command), "command")
 
     def on_printer_add_log(self, data):
         """Take a line of OctoPrint's log (OctoPrint's callback)."""
         if not self._link.is_rrf:
             return
+        if self._is_asked and data.startswith(OK):
+            self._is_asked = False
         if not self._trace.is_open and (data in PLAIN or (" G" in data and data[:4] in SENT_LINE)):
             return
         if self._trace.hides(data) or data in PLAIN:
             return
         received = RECEIVED.match(data)
         if received is None:
+            return
+        if self._is_polled and CARD_POLLED.match(received["text"]):
             return
         is_report = TEMPERATURES.match(received["text"])
         if not is_report or self._wants_temperatures:
@@ -67,8 +91,27 @@ class GcodeStore(PrinterCallback):
 
     def latest(self, count):
         """Return the latest ``count`` lines, oldest first."""
-        lines = list(self._lines)
-        return lines[len(lines) - count :] if count < len(lines) else lines
+        lines = self.since(0)
+        if count < len(lines):
+            lines = lines[len(lines) - count :]
+        return [{name: line[name] for name in MOONRAKERS} for line in lines]
+
+    def since(self, number):
+        """Return the lines behind one with that number, oldest first: with their numbers, and
+        whether a person asked for them."""
+        with self._lock:
+            return [line for line in self._lines if line["number"] > number]
 
     def _note(self, message, kind):
-        self._lines.append({"message": message, "time": time.time(), "type": kind})
+        # commands and responses come by threads of their own
+        with self._lock:
+            self._number += 1
+            self._lines.append(
+                {
+                    "number": self._number,
+                    "message": message,
+                    "time": time.time(),
+                    "type": kind,
+                    "asked": self._is_asked,
+                }
+            )

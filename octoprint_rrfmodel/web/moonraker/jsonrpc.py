@@ -2,6 +2,7 @@
 
 import json
 import logging
+import math
 from typing import Any, NamedTuple
 
 PARSE_ERROR = -32700
@@ -57,7 +58,7 @@ def respond(text, run):
     ``run(method, params)`` gives a call's result or raises ``RpcError``.
     """
     try:
-        message = json.loads(text, parse_constant=_no_number)
+        message = json.loads(text, parse_constant=_no_number, parse_float=_finite)
     except (ValueError, RecursionError):
         return _text(_failure(None, RpcError(PARSE_ERROR, "This is not JSON.")))
     if not isinstance(message, list):
@@ -105,6 +106,12 @@ def _is_id(value):
 
 def _no_number(name):
     raise ValueError(f"{name} is no JSON")
+
+
+def _finite(text):
+    """Return a number; one that is too large for any would be none in the answer."""
+    value = float(text)
+    return value if math.isfinite(value) else _no_number(text)
 
 
 def _text(value):

@@ -14,8 +14,7 @@ class Moonraker:
     """Printer objects over HTTP and websocket, G-code of clients, and what was said.
 
     ``host`` is OctoPrint (``host.host.Host``), ``follower`` has the model, ``link`` leads to the
-    board. ``notify("line", text)`` and ``notify("send", lines, tags, force)`` leave notes for the
-    worker, ``rate`` counts commands.
+    board. ``notify("line", text)`` leaves a note for the worker, ``rate`` counts commands.
     """
 
     def __init__(self, host, follower, link, *, notify, rate, clock):
@@ -25,7 +24,7 @@ class Moonraker:
         self.objects = PrinterObjects(
             follower, link, self.job.job, clock=clock, version=host.version
         )
-        scripts = GcodeScripts(self.objects.is_connected, partial(notify, "send"), rate)
+        scripts = GcodeScripts(self.objects.is_connected, link, rate)
         self.store = GcodeStore(link, partial(notify, "line"))
         """What was said on the line; is told of each command that goes out."""
         self.sockets = Sockets(self.objects, scripts, host.users, clock=clock)

@@ -5,6 +5,7 @@ from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from ...host.answers import RequestRefused, answer, may_read
+from ...host.request_json import json_of
 from ...rrf import klipper
 from .gcode_store import MOST_LINES
 
@@ -87,4 +88,4 @@ class MoonrakerApi:
 
 def body():
     """Return the request's JSON, ``None`` where it is none."""
-    return flask.request.get_json(force=True, silent=True)
+    return json_of(flask.request, force=True)

@@ -83,4 +83,5 @@ class PrinterObjects:
             is_ready=self._follower.ready,
             has_protocol=not self._follower.is_mute,
             job=self._job(),
+            heights=self._link.height_map,
         )

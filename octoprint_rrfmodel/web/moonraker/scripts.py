@@ -40,13 +40,13 @@ def lines_of(script):
 class GcodeScripts:
     """Sends scripts to a connected RepRapFirmware; never waits, so that any thread may call it.
 
-    ``is_connected()`` says whether RepRapFirmware is at the line's other end, ``send(lines, tags,
-    force)`` takes note of what to send. ``rate`` counts all commands that others give.
+    ``is_connected()`` says whether RepRapFirmware is at the line's other end, ``link`` leads there.
+    ``rate`` counts all commands that others give.
     """
 
-    def __init__(self, is_connected, send, rate):
+    def __init__(self, is_connected, link, rate):
         self._is_connected = is_connected
-        self._send = send
+        self._link = link
         self._rate = rate
 
     def run(self, script):
@@ -55,12 +55,12 @@ class GcodeScripts:
         self._check()
         if not self._rate.allows(len(lines)):
             raise RequestRefused(409, gettext("Too many commands at once. Try again in a second."))
-        self._send(lines, {SCRIPT_TAG}, False)
+        self._link.send_later(lines, {SCRIPT_TAG})
 
     def emergency_stop(self):
         """Stop the machine at once, past all queues; raise ``RequestRefused``."""
         self._check()
-        self._send(["M112"], {SCRIPT_TAG}, True)
+        self._link.stop_now({SCRIPT_TAG})
 
     def _check(self):
         if not self._is_connected():

@@ -3,6 +3,7 @@
 from octoprint.access.users import LoginStatusListener
 from tornado.ioloop import IOLoop
 
+from .off_loop import OffLoop
 from .subscribers import Subscribers
 from .websocket import PrinterSocket, SocketHub
 
@@ -29,8 +30,14 @@ class Sockets(LoginStatusListener):
     def routes(self, app):
         """Return what Tornado serves itself; OctoPrint asks on the thread of Tornado's loop."""
         self._loop = IOLoop.current()
-        subscribers = Subscribers(self._objects.world, self._loop)
-        self._hub = SocketHub(self._objects, self._scripts, subscribers, find_user=self._find_user)
+        run = OffLoop(self._loop).run
+        self._hub = SocketHub(
+            self._objects,
+            self._scripts,
+            Subscribers(self._objects.world, self._loop, run),
+            find_user=self._find_user,
+            run=run,
+        )
         return [(r"/websocket", PrinterSocket, {"hub": self._hub, "app": app})]
 
     def count(self):

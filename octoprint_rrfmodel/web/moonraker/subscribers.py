@@ -1,10 +1,12 @@
 """Those who subscribed to printer objects, and what each of them has been told.
 
-All of it runs on Tornado's loop. A change is told at once, and then nothing for a quarter of a
-second. What many asked for alike is computed, compared and written as text once for all.
+It lives on Tornado's loop, and what may take long is done elsewhere meanwhile: objects are computed
+and compared. A change is told at once, and then nothing for a quarter of a second. What many asked
+for alike is computed, compared and written as text once for all.
 """
 
 import collections
+from functools import partial
 
 from ...rrf import klipper
 from . import jsonrpc
@@ -26,22 +28,23 @@ class Subscribers:
     """Tells each connection what has changed of the objects that it subscribed to.
 
     ``world()`` is what objects are computed from. ``loop`` is Tornado's: ``time()``,
-    ``call_at(when, function)``. A connection has ``send(text)``, which doesn't wait.
+    ``call_at(when, function)``. ``run(function, then)`` calls ``function()`` off the loop, and
+    ``then`` on it with a future of the result. A connection has ``send(text)``, which doesn't wait.
     """
 
-    def __init__(self, world, loop):
+    def __init__(self, world, loop, run):
         self._world = world
         self._loop = loop
+        self._run = run
         self._subscriptions = {}
         self._latest = {}
         # how many want the same; what nobody wants any more is kept no longer
         self._counts = collections.Counter()
         self._timer = None
+        self._is_at_work = self._has_news = False
 
-    def subscribe(self, connection, wanted):
-        """Replace what a connection subscribed to; return the complete status and its time."""
-        world = self._world()
-        status = klipper.status(world, wanted)
+    def subscribe(self, connection, wanted, status):
+        """Replace what a connection subscribed to; it is being told the complete ``status``."""
         self.unsubscribe(connection)
         if wanted:
             key = _key(wanted)
@@ -51,7 +54,6 @@ class Subscribers:
             self._latest[key] = status
             self._subscriptions[connection] = _Subscription(key, status)
             self._counts[key] += 1
-        return status, world.eventtime
 
     def unsubscribe(self, connection):
         """Forget a connection."""
@@ -72,6 +74,9 @@ class Subscribers:
         """Tell those whose quiet time is over, and see to the others when theirs is."""
         if not self._subscriptions:
             return
+        self._has_news = self._is_at_work
+        if self._is_at_work:
+            return
         now = self._loop.time()
         due = [
             (connection, subscription)
@@ -79,7 +84,14 @@ class Subscribers:
             if now - subscription.told_at >= QUIET_SECONDS
         ]
         if due:
-            self._tell(due, now)
+            self._is_at_work = True
+            told = {_group(each): each.told for _, each in due}
+            self._run(partial(self._texts, told), partial(self._tell, due))
+        else:
+            self._see_to_the_quiet()
+
+    def _see_to_the_quiet(self):
+        now = self._loop.time()
         # those just told, too: the next change may come while they are to be left in peace
         quiet = [
             subscription.told_at
@@ -93,26 +105,39 @@ class Subscribers:
         self._timer = None
         self.changed()
 
-    def _tell(self, due, now):
+    def _texts(self, told):
+        """Return for each group of subscribers its status and what to tell; not on the loop."""
         world = self._world()
         statuses = {}
         texts = {}
-        for connection, subscription in due:
-            if self._subscriptions.get(connection) is not subscription:
-                continue  # gone since: sending to one may close it
-            wanted, told = subscription.wanted, subscription.told
+        for group, last in told.items():
+            wanted, _ = group
             if wanted not in statuses:
                 statuses[wanted] = klipper.status(world, dict(wanted))
             status = statuses[wanted]
-            # whoever was told the same has the same object
-            group = wanted, id(told)
-            if group not in texts:
-                texts[group] = _text(klipper.difference(told, status), world.eventtime), told
-            text = texts[group][0]
+            texts[group] = status, _text(klipper.difference(last, status), world.eventtime)
+        return texts
+
+    def _tell(self, due, texts):
+        self._is_at_work = False
+        now, texts = self._loop.time(), texts.result()
+        for connection, subscription in due:
+            if self._subscriptions.get(connection) is not subscription:
+                continue  # gone since, or it wants something else
+            status, text = texts[_group(subscription)]
             if text is not None:
-                self._latest[wanted] = status
+                self._latest[subscription.wanted] = status
                 subscription.told, subscription.told_at = status, now
                 connection.send(text)
+        if self._has_news:
+            self.changed()
+        else:
+            self._see_to_the_quiet()
+
+
+def _group(subscription):
+    """Return what those have in common who are told the same: what they were told is one object."""
+    return subscription.wanted, id(subscription.told)
 
 
 def _key(wanted):

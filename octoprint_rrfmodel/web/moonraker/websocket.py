@@ -1,8 +1,11 @@
 """``/plugin/rrfmodel/websocket``: printer objects for those who want each change."""
 
+from __future__ import annotations
+
 import itertools
 import logging
 from functools import partial
+from typing import Any, NamedTuple
 
 import tornado.websocket
 
@@ -18,12 +21,17 @@ MOST_UNSENT = 4_000_000
 
 LARGEST_MESSAGE = 100_000
 
+SHORT_MESSAGE = 1_000
+"""Characters of a message that may be worked on at once if there is an emergency stop in it."""
+
+EMERGENCY_STOP = "printer.emergency_stop"
+
 POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
 
 
 class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
-    """One client; everything here runs on Tornado's loop and nothing waits.
+    """One client, on Tornado's loop, where nothing waits; what it asks is worked on elsewhere.
 
     ``hub`` knows all sockets, ``app`` is OctoPrint's Flask application, which knows users.
     """
@@ -55,14 +63,16 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
         self.set_nodelay(True)
         self._hub.opened(self)
 
-    def on_message(self, message):
-        """Answer a call, or several."""
+    async def on_message(self, message):
+        """Answer a call, or several; Tornado takes the next message when this one is answered."""
         if isinstance(message, bytes) or len(message) > LARGEST_MESSAGE:
             self.close(POLICY_VIOLATION, "Text of at most 100,000 characters, please")
             return
-        answer = jsonrpc.respond(message, partial(self._hub.call, self))
+        work = partial(self._hub.respond, self, message)
+        is_urgent = EMERGENCY_STOP in message and len(message) <= SHORT_MESSAGE
+        answer = work() if is_urgent else await self._hub.run(work)
         if answer is not None:
-            self.send(answer)
+            self._hub.answer(self, answer)
 
     def on_close(self):
         """Forget the client."""
@@ -91,18 +101,36 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
         written.exception()  # a connection that broke is told by on_close
 
 
+class Answer(NamedTuple):
+    """What a message of a client's brings, worked out off the loop."""
+
+    text: str | None
+    """The answer itself, ``None`` where none is wanted."""
+    subscribed: list[tuple[Any, Any]]
+    """What is subscribed to with it, and the status that it tells of that."""
+
+
+class Asking(NamedTuple):
+    """A message that is worked on."""
+
+    socket: PrinterSocket
+    subscribed: list[tuple[Any, Any]]
+
+
 class SocketHub:
     """Answers what sockets ask, and tells all of them what they didn't ask for.
 
     ``objects`` gives and describes the printer objects, ``scripts`` sends G-code, ``subscribers``
-    keeps who wants what; ``find_user(name)`` is OctoPrint's.
+    keeps who wants what; ``find_user(name)`` is OctoPrint's. ``run(function)`` gives a future of
+    its result, which it works out off the loop.
     """
 
-    def __init__(self, objects, scripts, subscribers, *, find_user):
+    def __init__(self, objects, scripts, subscribers, *, find_user, run):
         self._objects = objects
         self._scripts = scripts
         self._subscribers = subscribers
         self.find_user = find_user
+        self.run = run
         self.sockets = set()
         """Those that are open."""
         self._state = None
@@ -115,7 +143,7 @@ class SocketHub:
             "printer.objects.query": (self._query, "may_read"),
             "printer.objects.subscribe": (self._subscribe, "may_read"),
             "printer.gcode.script": (self._script, "may_control"),
-            "printer.emergency_stop": (self._emergency_stop, "may_control"),
+            EMERGENCY_STOP: (self._emergency_stop, "may_control"),
         }
 
     def opened(self, socket):
@@ -129,15 +157,32 @@ class SocketHub:
         self.sockets.discard(socket)
         self._subscribers.unsubscribe(socket)
 
-    def call(self, socket, method, params):
+    def respond(self, socket, message):
+        """Return the ``Answer`` to a message, off the loop; ``None`` for a socket that is gone."""
+        if socket not in self.sockets:
+            return None
+        subscribed = []
+        text = jsonrpc.respond(message, partial(self._call, Asking(socket, subscribed)))
+        return Answer(text, subscribed)
+
+    def answer(self, socket, answer):
+        """Send an answer, on the loop; what is subscribed with it holds from then on."""
+        if socket not in self.sockets:
+            return
+        for wanted, status in answer.subscribed:
+            self._subscribers.subscribe(socket, wanted, status)
+        if answer.text is not None:
+            socket.send(answer.text)
+
+    def _call(self, asking, method, params):
         """Return a method's result; raise ``RpcError``."""
         if method not in self._methods:
             raise RpcError(METHOD_NOT_FOUND, f"There is no method {method[:100]}.")
         run, permission = self._methods[method]
-        if permission != "may_read" and not getattr(socket.caller, permission)():
+        if permission != "may_read" and not getattr(asking.socket.caller, permission)():
             raise RpcError(REFUSED, "You may not do that. Ask an administrator.")
         try:
-            return run(socket, params)
+            return run(asking, params)
         except RequestRefused as error:
             code = INVALID_PARAMS if error.status == 400 else REFUSED
             raise RpcError(code, str(error)) from None
@@ -187,30 +232,32 @@ class SocketHub:
 
     ##~~ methods
 
-    def _server_info(self, socket, params):
+    def _server_info(self, asking, params):
         return self._objects.server_info(len(self.sockets))
 
-    def _identify(self, socket, params):
-        return {"connection_id": socket.id}
+    def _identify(self, asking, params):
+        return {"connection_id": asking.socket.id}
 
-    def _printer_info(self, socket, params):
+    def _printer_info(self, asking, params):
         return self._objects.printer_info()
 
-    def _list(self, socket, params):
+    def _list(self, asking, params):
         return {"objects": self._objects.names()}
 
-    def _query(self, socket, params):
+    def _query(self, asking, params):
         return self._objects.query(_wanted(params))
 
-    def _subscribe(self, socket, params):
-        status, eventtime = self._subscribers.subscribe(socket, _wanted(params))
-        return {"eventtime": eventtime, "status": status}
+    def _subscribe(self, asking, params):
+        wanted = _wanted(params)
+        found = self._objects.query(wanted)
+        asking.subscribed.append((wanted, found["status"]))
+        return found
 
-    def _script(self, socket, params):
+    def _script(self, asking, params):
         self._scripts.run(params.get("script"))
         return "ok"
 
-    def _emergency_stop(self, socket, params):
+    def _emergency_stop(self, asking, params):
         self._scripts.emergency_stop()
         return "ok"
 
