@@ -4,9 +4,13 @@
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9
-JOBS ?= 5
+JOBS ?= 4
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
+MINUTES ?= 10
+SECONDS ?= 280
+FUZZ_ARGS ?=
+ENDURANCE_ARGS ?=
 
 VENV_1.11 := .venv/octoprint-1.11
 VENV_2.0 := .venv/octoprint-2.0
@@ -22,9 +26,11 @@ PYTEST := -m pytest -n $(JOBS) --dist loadgroup --no-loadscope-reorder $(PYTEST_
 
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
+# each worker and each server would compile all it imports
+export PYTHONDONTWRITEBYTECODE :=
 
 .DELETE_ON_ERROR:
-.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench demo translations environments clean
+.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench fuzz endurance endurance-network silence demo translations environments clean
 
 help:
 	@echo "make test           lint and the tests in OctoPrint 1.11 and 2.0, side by side"
@@ -32,7 +38,12 @@ help:
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
 	@echo "make lint           ruff, mypy and the floors; make format lets ruff put files in shape"
 	@echo "make bench          the measurements in tests/bench"
-	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000"
+	@echo "make fuzz           inputs by chance and by coverage to all that takes any; MINUTES=10"
+	@echo "make endurance      prints, faults and visitors of a simulated week, in both OctoPrints; MINUTES=30"
+	@echo "make silence        commands that the board is silent for, with OctoPrint's own timeouts; SECONDS=280"
+	@echo "make endurance-network  the same with a board on the network, in OctoPrint 2.0; MINUTES=10"
+	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000,"
+	@echo "                    DEMO_MACHINE=toolchanger, DEMO_FIRMWARE=3.6.1, DEMO_LINK=network (OctoPrint 2.0)"
 	@echo "make translations   refresh messages.pot and the catalogues"
 	@echo "make clean          remove environments and what tools left behind"
 
@@ -60,7 +71,23 @@ help:
 
 .PRECIOUS: .venv/octoprint-%/.installed
 
-environments: $(READY) $(PLAIN)
+# Programs that talk to boards, each with what it brings, for a test of the simulated board that says
+# which of them it couldn't have; the vendor's needs Node
+CLIENTS := .venv/network-clients
+
+$(CLIENTS)/.ready: requirements/network-clients.txt tests/clients/package.json
+	@echo "installing programs that talk to boards into $(@D)"
+	@rm -rf $(@D)
+	@$(PYTHON) -m venv $(@D)
+	@$(@D)/bin/python -m pip install -qq --requirement $< || echo "those for Python can't be had"
+	@cp tests/clients/package.json $(@D)
+	@if command -v npm >/dev/null; then \
+		npm install --prefix $(@D) --no-package-lock --no-audit --no-fund --silent \
+			|| echo "those for Node can't be had"; \
+	fi
+	@touch $@
+
+environments: $(READY) $(PLAIN) $(CLIENTS)/.ready
 	@:
 
 # Tests
@@ -101,6 +128,28 @@ format: .venv/octoprint-1.11/.ready
 
 bench: .venv/octoprint-2.0/.ready
 	@$(VENV_2.0)/bin/python -m tests.bench
+
+# Atheris is for this alone, so that nothing else waits for its installation
+$(VENV_2.0)/.fuzz: requirements/fuzz.txt $(VENV_2.0)/.ready
+	@$(VENV_2.0)/bin/python -m pip install -qq --requirement $<
+	@touch $@
+
+fuzz: $(VENV_2.0)/.fuzz
+	@$(VENV_2.0)/bin/python -m tests.fuzz --minutes $(MINUTES) $(FUZZ_ARGS)
+
+endurance: $(READY)
+	@$(VENV_2.0)/bin/python -m tests.endurance --minutes $(MINUTES) \
+		$(if $(SEED),--seed $(SEED)) $(if $(HOST),--host $(HOST)) $(ENDURANCE_ARGS)
+
+# three of it: one that OctoPrint doesn't know as long, one that it knows, one in a print
+silence: $(READY)
+	@for venv in $(VENV_1.11) $(VENV_2.0); do \
+		RRF_SILENCE=$(SECONDS) $$venv/bin/python -m pytest -n 3 tests/e2e/line/test_silence.py -k silent_command || exit 1; \
+	done
+
+endurance-network: .venv/octoprint-2.0/.ready
+	@$(VENV_2.0)/bin/python -m tests.endurance.network --minutes $(MINUTES) \
+		$(if $(SEED),--seed $(SEED)) $(ENDURANCE_ARGS)
 
 demo: .venv/octoprint-$(DEMO_OCTOPRINT)/.ready
 	@exec .venv/octoprint-$(DEMO_OCTOPRINT)/bin/python -m extras.demo

@@ -6,18 +6,19 @@ import contextlib
 import itertools
 import os
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 
 import hypothesis
 import pytest
 
 from tests.support import broker as mqtt
 from tests.support import browser as chromium
-from tests.support.places import ROOT
+from tests.support.examples import some
+from tests.support.recordings import RECORDINGS
 
 # a busy machine makes single examples slow, and a failure has to be the same one when run again
-hypothesis.settings.register_profile("bench", deadline=None, print_blob=True)
-hypothesis.settings.register_profile("ci", deadline=None, print_blob=True, derandomize=True)
+COMMON = {"deadline": None, "print_blob": True, "max_examples": some()}
+hypothesis.settings.register_profile("bench", **COMMON)
+hypothesis.settings.register_profile("ci", **COMMON, derandomize=True)
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "bench")
 
 # the servers of this process that run now, for the report of a failure
@@ -29,6 +30,7 @@ RUNNING = []
 SECONDS = {
     "test_package": 300,
     "line/test_faults": 280,
+    "endurance/test_endurance": 80,
     "line/test_operations_heat": 220,
     "line/test_truth": 220,
     "line/test_operations": 160,
@@ -45,6 +47,7 @@ SECONDS = {
     "line/test_silence": 120,
     "line/test_same_breath": 60,
     "line/test_usb_channels": 50,
+    "rrf/follow/test_rows": 30,
     "web/test_commands_states": 180,
     "web/test_commands_http": 150,
     "web/test_openapi": 110,
@@ -57,6 +60,7 @@ SECONDS = {
     "print/test_print": 220,
     "print/test_guard": 150,
     "print/test_refused": 100,
+    "print/test_hanging_plugins": 80,
     "print/test_cnc": 60,
     "print/test_cancelled": 50,
     "print/test_file_check": 50,
@@ -65,6 +69,15 @@ SECONDS = {
     "card/test_sdcard": 300,
     "card/test_thumbnail": 40,
     "card/test_files": 60,
+    "network/test_losses": 100,
+    "link/network/test_whole": 30,
+    "network/test_jobs": 80,
+    "network/test_sbc": 100,
+    "link/network/test_sbc": 20,
+    "network/test_operations": 40,
+    "network/test_files": 40,
+    "network/test_secrets": 40,
+    "network/test_stop": 30,
     "setup/test_settings": 100,
     "setup/test_buttons": 60,
     "integrations/test_layer_progress": 120,
@@ -107,6 +120,23 @@ def _seconds(item):
     return SECONDS.get(_module(item), BROWSER_SECONDS if is_of_the_page else 0)
 
 
+def _group(item):
+    """Return what of the tests runs one after the other: a group, or the module's own."""
+    mark = item.get_closest_marker("xdist_group")
+    return mark.args[0] if mark else _module(item)
+
+
+def _seconds_of_groups(items):
+    """Return how long each group takes, whose modules run on one worker."""
+    modules = {}
+    for item in items:
+        modules.setdefault(_group(item), {})[_module(item)] = _seconds(item)
+    return {
+        group: sum(seconds / PARTS.get(module, 1) for module, seconds in found.items())
+        for group, found in modules.items()
+    }
+
+
 # xdist's own implementation puts the group into the name of the test, so it has to come later
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
@@ -122,7 +152,8 @@ def pytest_collection_modifyitems(items):
         for number, item in enumerate(tests):
             part = number * parts // len(tests)
             item.add_marker(pytest.mark.xdist_group(f"{module}-{part}" if part else module))
-    items.sort(key=_seconds, reverse=True)
+    seconds = _seconds_of_groups(items)
+    items.sort(key=lambda item: seconds[_group(item)], reverse=True)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -148,10 +179,9 @@ def octoprint_version():
 @pytest.fixture(scope="session")
 def shared_dir():
     """Folder with recordings and reference answers that lie outside the repository."""
-    path = Path(os.environ.get("RRF_SHARED", ROOT.parent / "shared"))
-    if not path.is_dir():
+    if not RECORDINGS.is_dir():
         pytest.skip("the folder with recordings isn't there; set RRF_SHARED to its path")
-    return path
+    return RECORDINGS
 
 
 @pytest.fixture(scope="session")

@@ -9,9 +9,9 @@ import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from
 
 from octoprint_rrfmodel.assembly import Assembly
 from octoprint_rrfmodel.hooks import hooks_of
-from octoprint_rrfmodel.host.host import Host
 from octoprint_rrfmodel.host.notes import NOTES
 from octoprint_rrfmodel.rrf.follow.follower import Taken
+from tests.support.hosts import host_of
 
 METHODS = ("identified", "replied", "reset", "line", "heard", "forgotten", "tick")
 
@@ -28,20 +28,7 @@ def parts(tmp_path):
         get=lambda path, **options: None,
         global_get=lambda path: None,
     )
-    return Assembly(
-        Host(
-            printer=lambda: nothing,
-            profiles=lambda: nothing,
-            plugins=lambda: nothing,
-            settings=lambda: settings,
-            users=lambda: nothing,
-            folder=lambda: str(tmp_path),
-            version=lambda: "0",
-            fire=lambda event, payload: None,
-            tell_pages=lambda message: None,
-            path_on_disk=lambda path: str(tmp_path / path),
-        )
-    )
+    return Assembly(host_of(tmp_path, nothing, settings))
 
 
 def test_every_note_has_who_works_through_it(parts):

@@ -12,6 +12,9 @@ from octoprint_rrfmodel.simulator.firmware import VERSIONS
 from tests.support.docs import DOCS
 from tests.support.places import ROOT
 
+# to collect them takes a while, so that one worker does it
+pytestmark = pytest.mark.xdist_group("firmware_docs")
+
 COLUMNS = {
     "2.05": r"(?<![\d.])2\.05(?!\d)|408|before_3_",
     **{name: rf"(?<![\d.]){re.escape(name)}(?!\d)" for name in ("3.3", "3.4", "3.5", "3.6", "3.7")},

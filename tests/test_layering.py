@@ -1,6 +1,7 @@
 """What the floors don't say: circles, sizes, constructors, OctoPrint's private names."""
 
 import ast
+import functools
 import subprocess
 import sys
 
@@ -41,8 +42,13 @@ def module_of(path):
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-TREES = {module_of(path): ast.parse(path.read_text("utf-8")) for path in files_of(PACKAGE)}
+MODULES = {module_of(path): path for path in files_of(PACKAGE)}
 PACKAGES = {module_of(path) for path in files_of(PACKAGE) if path.name == "__init__.py"}
+
+
+@functools.cache
+def tree_of(module):
+    return ast.parse(MODULES[module].read_text("utf-8"))
 
 
 def imports_of(module):
@@ -51,7 +57,7 @@ def imports_of(module):
     if module not in PACKAGES:
         package.pop()
     found = set()
-    for node in ast.walk(TREES[module]):
+    for node in ast.walk(tree_of(module)):
         if isinstance(node, ast.Import):
             found.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -59,7 +65,7 @@ def imports_of(module):
             origin = ".".join([*base, *([node.module] if node.module else [])])
             for alias in node.names:
                 name = f"{origin}.{alias.name}"
-                found.add(name if name in TREES else origin)
+                found.add(name if name in MODULES else origin)
     return found
 
 
@@ -85,16 +91,18 @@ def test_no_import_runs_in_a_circle():
     """Those for type checkers count, which whoever reads follows too."""
     # what a package's own file hands on is in its modules
     arrows = {
-        module: {name for name in imports_of(module) if name in TREES and name != module}
-        for module in TREES
+        module: {name for name in imports_of(module) if name in MODULES and name != module}
+        for module in MODULES
     }
-    circles = {tuple(sorted(circle)) for module in TREES if (circle := circle_from(module, arrows))}
+    circles = {
+        tuple(sorted(circle)) for module in MODULES if (circle := circle_from(module, arrows))
+    }
     assert circles == set()
 
 
 @pytest.mark.parametrize("package", [RRF, SIMULATOR])
 def test_import_brings_nothing_of_octoprint(package):
-    modules = [name for name in TREES if is_below(name, package) and "__main__" not in name]
+    modules = [name for name in MODULES if is_below(name, package) and "__main__" not in name]
     assert modules, "no module found: the test looked in the wrong place"
     script = (
         "import importlib, sys\n"
@@ -114,7 +122,7 @@ def test_pure_half_imports_the_standard_library_alone():
     for package, own in ((RRF, (RRF,)), (SIMULATOR, (SIMULATOR, RRF))):
         crossing = [
             f"{module}: {name}"
-            for module in TREES
+            for module in MODULES
             if is_below(module, package)
             for name in imports_of(module)
             if name.partition(".")[0] not in standard
@@ -132,7 +140,8 @@ def test_modules_are_small():
 
 def test_constructors_take_few_collaborators():
     long = []
-    for module, tree in TREES.items():
+    for module in MODULES:
+        tree = tree_of(module)
         for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef) and node.name == "__init__":
                 by_position = len(node.args.args) + len(node.args.posonlyargs) - len(["self"])
@@ -144,7 +153,8 @@ def test_constructors_take_few_collaborators():
 
 def test_octoprints_connection_is_known_to_the_serial_link_alone():
     found = []
-    for module, tree in TREES.items():
+    for module in MODULES:
+        tree = tree_of(module)
         if is_below(module, SERIAL) or is_below(module, SIMULATOR) or is_below(module, RRF):
             continue
         found += [f"{module}: {name}" for name in imports_of(module) if name in CONNECTIONS]

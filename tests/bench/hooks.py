@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import statistics
+import time
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,13 +12,17 @@ from octoprint_rrfmodel.link.serial.queued import QueuedCommands
 from octoprint_rrfmodel.link.serial.received import ReceivedLines
 from octoprint_rrfmodel.link.serial.sdcard import SdCard
 from octoprint_rrfmodel.link.serial.sdjob import SdJob
+from octoprint_rrfmodel.link.serial.sent import SentCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
-from tests.bench.timing import side_by_side, verdict
+from tests.bench import results
+from tests.bench.timing import side_by_side
 
 CALLS = 2000
 RECEIVED_LIMIT = 0.5
 QUEUING_LIMIT = 1.0
+STREAMED_LIMIT = 2.0
+"""For all three hooks and one line of a print; OctoPrint itself takes about 200 us for one."""
 
 RECEIVED = (
     "ok\n",
@@ -35,9 +40,9 @@ class _Comm:
 
 
 def measure() -> None:
-    """Print the cost of both hooks over an empty one, in microseconds a line."""
+    """Tell the cost of the hooks over an empty one, in microseconds a line."""
     comm = _Comm()
-    link = SerialLink(printer=lambda: None, profiles=lambda: None, clock=lambda: 0.0)
+    link = SerialLink(printer=lambda: None, profiles=lambda: None, clock=time.monotonic)
     card = SdCard(
         CardPlan(),
         SdJob(dict, lambda: True, lambda lines, tags: None, clock=lambda: 0.0),
@@ -62,21 +67,36 @@ def measure() -> None:
         lambda: _receive(hooks.on_received, comm, received),
         lambda: _receive(_empty_received, comm, received),
     )
-    _tell("received", ours, empty, RECEIVED_LIMIT)
+    _tell("received hook, a line", ours, empty, RECEIVED_LIMIT)
     queued = list(itertools.islice(itertools.cycle(QUEUED), CALLS))
     ours, empty = side_by_side(
         lambda: _queue(queue.on_queuing, comm, queued),
         lambda: _queue(_empty_queuing, comm, queued),
     )
-    _tell("queuing", ours, empty, QUEUING_LIMIT)
+    _tell("queuing hook, a line", ours, empty, QUEUING_LIMIT)
+    sending = SentCommands(
+        link,
+        lambda *note: None,
+        time.monotonic,
+        show_target=lambda heater, target: None,
+        sent=lambda cmd, tags: None,
+    )
+    ours, empty = side_by_side(
+        lambda: _stream(queue.on_queuing, sending.on_sending, hooks.on_received, comm, queued),
+        lambda: _stream(_empty_queuing, _empty_queuing, _empty_received, comm, queued),
+    )
+    _tell("all three hooks, a streamed line", ours, empty, STREAMED_LIMIT)
 
 
 def _tell(name: str, ours: list[float], empty: list[float], limit: float) -> None:
     cost = statistics.median(a - b for a, b in zip(ours, empty)) / CALLS * 1e6
     own, bare = (statistics.median(times) / CALLS * 1e6 for times in (ours, empty))
-    print(
-        f"{name} hook: {own:.3f} us a line, empty hook {bare:.3f} us,"
-        f" {cost:.3f} us more ({verdict(cost, limit)})"
+    results.tell(
+        f"{name} over an empty hook",
+        cost,
+        "us",
+        beside=f"{own:.3f} us; empty {bare:.3f} us",
+        limit=limit,
     )
 
 
@@ -88,6 +108,16 @@ def _receive(hook: Any, comm: Any, lines: list[str]) -> None:
 def _queue(hook: Any, comm: Any, commands: list[tuple[str, str]]) -> None:
     for command, gcode in commands:
         hook(comm, "queuing", command, None, gcode, subcode=None, tags=FILE_TAGS)
+
+
+def _stream(
+    queuing: Any, sending: Any, received: Any, comm: Any, commands: list[tuple[str, str]]
+) -> None:
+    """Let lines of a print through, one after the other, each acknowledged."""
+    for command, gcode in commands:
+        queuing(comm, "queuing", command, None, gcode, subcode=None, tags=FILE_TAGS)
+        sending(comm, "sending", command, None, gcode, subcode=None, tags=FILE_TAGS)
+        received(comm, "ok\n")
 
 
 def _empty_received(comm: Any, line: str, *args: Any, **kwargs: Any) -> str:

@@ -13,30 +13,37 @@ from octoprint_rrfmodel.rrf.wire.line import find_reply
 from octoprint_rrfmodel.rrf.wire.live_reader import LiveReader
 from octoprint_rrfmodel.rrf.wire.reply import decode
 from octoprint_rrfmodel.simulator.board import Board
-from tests.bench.timing import median_ratio, side_by_side, verdict
+from tests.bench import results
+from tests.bench.timing import median_ratio, side_by_side
 
-REPLIES = 100
-LIMITS = {0.01: 2.0, 0.5: 3.2}
+REPLIES = 50
+KILOBYTES = (2, 4, 10, 40)
+SHARES = (0.01, 0.5)
+LIMITS = {(4, 0.01): 2.0, (4, 0.5): 3.2}
+"""Of a reply as most machines have it."""
+
+ROUNDS = 30
 
 
 def measure() -> None:
-    """Print the medians of both ways for each share of changed values."""
-    first = _live_reply()
-    values = len(list(_values(first["result"])))
-    print(f"live reply of {len(_text(first))} bytes with {values} values")
-    for share, limit in LIMITS.items():
-        ours, loads = _compare(_lines(first, share))
-        ratio = median_ratio(ours, loads)
-        print(
-            f"  {share:4.0%} changed: find, decode, merge, diff {_micros(ours):6.1f} us,"
-            f" json.loads {_micros(loads):6.1f} us, ratio {ratio:.2f} ({verdict(ratio, limit)})"
-        )
+    """Tell the medians of both ways for each size and share of changed values."""
+    for kilobytes in KILOBYTES:
+        first = _live_reply(kilobytes * 1000)
+        for share in SHARES:
+            ours, loads = _compare(_lines(first, share))
+            results.tell(
+                f"a reply of {len(_text(first)) / 1000:.1f} kB, {share:.0%} changed: taken in",
+                median_ratio(ours, loads),
+                "times",
+                beside=f"{_micros(ours):.0f} us; json.loads {_micros(loads):.0f} us",
+                limit=LIMITS.get((kilobytes, share)),
+            )
 
 
 def _compare(lines: list[str]) -> list[list[float]]:
     """Return the times of the plugin's way and of ``json.loads`` for the same lines."""
     follow = _Follow()
-    times = side_by_side(lambda: follow.take(lines), lambda: _loads(lines))
+    times = side_by_side(lambda: follow.take(lines), lambda: _loads(lines), rounds=ROUNDS)
     assert follow.model == json.loads(lines[-1])["result"]
     return times
 
@@ -65,10 +72,17 @@ def _loads(lines: list[str]) -> None:
         json.loads(line)
 
 
-def _live_reply() -> dict[str, Any]:
-    """Return a live reply of about 4 kB: a four-tool machine's."""
+def _live_reply(length: int) -> dict[str, Any]:
+    """Return a live reply of about that length: a tool changer's, with fewer or more sensors."""
     reply = json.loads(Board("toolchanger").execute('M409 K"" F"d99fin"'))
     assert isinstance(reply, dict)
+    result = reply["result"]
+    for key in ("inputs", "fans", "boards", "spindles"):
+        if len(_text(reply)) > length:
+            result.pop(key, None)
+    analog = result["sensors"]["analog"]
+    while len(_text(reply)) < length:
+        analog.append(dict(analog[0]))
     return reply
 
 

@@ -15,9 +15,12 @@ import aiohttp
 
 from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.pty import PtyBoard
-from tests.bench.timing import side_by_side, verdict
+from tests.bench import results
+from tests.bench.timing import side_by_side
 from tests.e2e import helpers
+from tests.e2e.page import open_view
 from tests.support.basedir import ADMIN
+from tests.support.browser import CHROMIUM, FLAGS
 from tests.support.server import OctoPrintServer
 
 SUBSCRIBERS = 100
@@ -53,7 +56,8 @@ class TimedBoard(Board):
 class Listeners:
     """So many sockets that subscribed to the same, and when each change came to each."""
 
-    def __init__(self, server: OctoPrintServer) -> None:
+    def __init__(self, server: OctoPrintServer, count: int = SUBSCRIBERS) -> None:
+        self._count = count
         self._address = f"{server.url}/plugin/rrfmodel/websocket"
         self.came_at: dict[int, list[float]] = {}
 
@@ -67,7 +71,7 @@ class Listeners:
             )
             sockets = [
                 await stack.enter_async_context(session.ws_connect(self._address))
-                for _ in range(SUBSCRIBERS)
+                for _ in range(self._count)
             ]
             tasks = [asyncio.create_task(self._listen(socket)) for socket in sockets]
             await change()
@@ -87,7 +91,7 @@ class Listeners:
 def measure() -> None:
     """Print what subscribers wait, what the model costs, and what a print loses."""
     with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
-        board = TimedBoard(machine="toolchanger", speed=2)
+        board = TimedBoard(machine="toolchanger", speed=20)
         link = stack.enter_context(PtyBoard(board, Path(folder) / "rrf-bench")).link
         server = stack.enter_context(
             OctoPrintServer(Path(folder) / "octoprint", ports_glob=f"{folder}/rrf-*")
@@ -95,6 +99,7 @@ def measure() -> None:
         server.connect(link)
         helpers.wait_ready(server)
         _latency(server, board)
+        _page(server, board)
         _print(server)
         _enlarge(board)
         helpers.wait_value(server, "#sensors.analog", lambda count: count > MORE_SENSORS, 60)
@@ -117,9 +122,13 @@ def _requests(server: OctoPrintServer) -> None:
     size = len(server.get(model).content) / 1000
     version, whole = side_by_side(ask("/api/version"), ask(model), rounds=REQUESTS)
     more = (statistics.median(whole) - statistics.median(version)) * 1000
-    print(
-        f"GET model, {size:.0f} kB: {more:.2f} ms over GET /api/version"
-        f" ({statistics.median(version) * 1000:.2f} ms); {verdict(more, MODEL_LIMIT)}"
+    bare = statistics.median(version) * 1000
+    results.tell(
+        f"GET model, {size:.0f} kB, over GET /api/version",
+        more,
+        "ms",
+        beside=f"GET /api/version {bare:.2f} ms",
+        limit=MODEL_LIMIT,
     )
 
 
@@ -139,9 +148,52 @@ def _latency(server: OctoPrintServer, board: TimedBoard) -> None:
         for came in all_of_them
     )
     p50, p99 = waits[len(waits) // 2], waits[int(len(waits) * 0.99)]
-    print(
-        f"reply to notification, {SUBSCRIBERS} subscribers, {len(waits)} messages:"
-        f" median {p50:.1f} ms, 99 % {p99:.1f} ms; {verdict(p99, LATENCY_LIMIT)}"
+    results.tell(
+        f"change to websocket, {SUBSCRIBERS} subscribers, 99 %",
+        p99,
+        "ms",
+        beside=f"median {p50:.1f} ms, {len(waits)} messages",
+        limit=LATENCY_LIMIT,
+    )
+
+
+NOTE_CHANGES = """() => {
+    window.seen = {};
+    const look = () => {
+        const found = /change (\\d+)/.exec(document.body.textContent);
+        if (found && !(found[1] in window.seen)) window.seen[found[1]] = Date.now();
+    };
+    new MutationObserver(look).observe(document.body, {
+        subtree: true,
+        childList: true,
+        characterData: true,
+    });
+}"""
+
+
+def _page(server: OctoPrintServer, board: TimedBoard) -> None:
+    """Tell the time from the board's reply to the text in an open page."""
+    from playwright.sync_api import sync_playwright
+
+    board.left_at.clear()
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)
+        page = browser.new_page()
+        open_view(page, server, ADMIN, "machine")
+        page.evaluate(NOTE_CHANGES)
+        for number in range(CHANGES):
+            board.execute(f'M117 "change {number}"')
+            page.wait_for_timeout(CHANGE_SECONDS * 1000)
+        page.wait_for_timeout(2000)
+        seen = page.evaluate("() => window.seen")
+        browser.close()
+    began = time.time() - time.monotonic()
+    waits = sorted(at - (board.left_at[int(number)] + began) * 1000 for number, at in seen.items())
+    results.tell(
+        "change to the page's DOM, 99 %",
+        waits[int(len(waits) * 0.99)],
+        "ms",
+        beside=f"median {waits[len(waits) // 2]:.0f} ms, {len(waits)} changes",
     )
 
 
@@ -173,7 +225,9 @@ def _print(server: OctoPrintServer) -> None:
     for _ in range(2):
         alone.append(printed())
         listened.append(asyncio.run(with_listeners()))
-    print(
-        f"streamed lines a second: {max(alone):.0f} alone, {max(listened):.0f}"
-        f" with {SUBSCRIBERS} subscribers"
+    results.tell(
+        f"streamed, {SUBSCRIBERS} subscribers: lines a second",
+        max(listened),
+        "/s",
+        beside=f"{max(alone):.0f}/s without any",
     )

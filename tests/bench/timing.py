@@ -25,8 +25,3 @@ def side_by_side(*functions: Callable[[], None], rounds: int = ROUNDS) -> list[l
 def median_ratio(times: list[float], base: list[float]) -> float:
     """Return the median of the ratios round by round."""
     return statistics.median(a / b for a, b in zip(times, base))
-
-
-def verdict(value: float, limit: float) -> str:
-    """Return whether a value keeps within its limit, in words."""
-    return f"limit {limit}: {'kept' if value <= limit else 'EXCEEDED'}"

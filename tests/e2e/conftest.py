@@ -15,6 +15,7 @@ table that differ only in that, mostly in machine and firmware, are rows of one 
 all other parameters. An empty ``once_for`` of a test takes back the one of its module.
 """
 
+import os
 from importlib.metadata import version
 from pathlib import Path
 
@@ -23,7 +24,7 @@ import pytest
 from . import helpers
 from .operations import PROFILE, SETUPS, Machine
 
-HERE = Path(__file__).parent
+HERE = f"{Path(__file__).parent}{os.sep}"
 
 
 # before the groups are made of what is left
@@ -42,7 +43,8 @@ def _leave_to_the_newer_host(config, items):
     if not version("OctoPrint").startswith("1."):
         return
     seen = set()
-    left = [item for item in items if HERE in item.path.parents and not _runs_in_both(item, seen)]
+    here = [item for item in items if str(item.path).startswith(HERE)]
+    left = [item for item in here if not _runs_in_both(item, seen)]
     if left:
         config.hook.pytest_deselected(items=left)
         kept = set(items) - set(left)

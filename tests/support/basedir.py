@@ -25,6 +25,9 @@ OPERATOR = User("operator", "users", "operator-password", "B0" * 16)
 READER = User("reader", "readonly", "reader-password", "C0" * 16)
 USERS = (ADMIN, OPERATOR, READER)
 
+USB_BAUD = 1_000_000
+"""Rate that means nothing, as on USB; no line is spared for it however busy the machine is."""
+
 # bundled plugins that ask the internet, measure the host or nag; none of them changes what is
 # tested, and the plugin manager's look at pip takes a second of each start
 DISABLED_PLUGINS = [
@@ -118,7 +121,7 @@ def configuration(
             "seenWizards": {"corewizard": 5, "tracking": 1, "backup": None, "file_check": 1},
         },
     }
-    serial = merged({"log": True}, serial)
+    serial = merged({"log": True, "additionalBaudrates": [USB_BAUD]}, serial)
     port, baudrate = autoconnect or (None, None)
     if is_version_2(version):
         placed = {

@@ -13,7 +13,7 @@ from typing import Any, Callable, TypeVar
 import requests
 
 from . import guard, ports, waiting
-from .basedir import USERS, User, configuration, write_basedir
+from .basedir import USB_BAUD, USERS, User, configuration, write_basedir
 from .client import Client
 
 T = TypeVar("T")
@@ -106,6 +106,12 @@ class OctoPrintServer:
             self.stop()
             raise
         return self
+
+    @property
+    def pid(self) -> int:
+        """The process that guards OctoPrint's, which is below it."""
+        assert self._process is not None
+        return self._process.pid
 
     def _answers(self) -> bool:
         assert self._process is not None
@@ -238,7 +244,7 @@ class OctoPrintServer:
         """Return the predicate's first true value; see ``waiting.wait_for``."""
         return waiting.wait_for(predicate, timeout, what)
 
-    def connect(self, port: str | Path, baudrate: int = 115200) -> None:
+    def connect(self, port: str | Path, baudrate: int = USB_BAUD) -> None:
         """Tell OctoPrint to open the port; ``wait_state`` tells when the printer is there."""
         request = {
             "command": "connect",

@@ -383,7 +383,7 @@ def started_by_script(server):
 
 @pytest.mark.both_hosts("each has its own code for the card", once_for=("firmware",))
 @BY_PROTOCOL
-def test_job_of_the_machine_gets_none_of_octoprints_scripts(
+def test_row_5_job_of_the_machine_gets_none_of_octoprints_scripts(
     server, connected, select, started_by_script, firmware
 ):
     board = connected(firmware=firmware)
@@ -432,7 +432,7 @@ def say_done_first(board):
 
 
 @pytest.mark.parametrize("where", ["octoprint", "octoprint, paused", "machine"])
-def test_print_that_is_cancelled_has_no_other_end(server, connected, select, where):
+def test_row_18_print_that_is_cancelled_has_no_other_end(server, connected, select, where):
     board = connected()
     say_done_first(board)
     with PushListener(server, ADMIN) as push:

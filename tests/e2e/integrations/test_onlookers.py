@@ -70,7 +70,7 @@ def test_polls_are_status_requests(server, board):
     ids=["OctoPrint's", "the plugin's"],
 )
 @pytest.mark.parametrize("relative", ["M83", "M82"])
-def test_filament_is_counted(server, ready, path, request_of, relative):
+def test_row_31_filament_is_counted(server, ready, path, request_of, relative):
     server.commands(relative)
     helpers.wait_value(
         server, "inputs[3].drivesRelative", lambda found: found is (relative == "M83"), 20
@@ -82,7 +82,7 @@ def test_filament_is_counted(server, ready, path, request_of, relative):
         lambda: seen(server)["filament"] == pytest.approx(before["filament"] + 7), 20, "the count"
     )
     server.wait_for(lambda: filament(ready) == pytest.approx(at + 7), 20, "the filament")
-    assert modes(ready) == left
+    server.wait_for(lambda: modes(ready) == left, 20, "the modes of before")
     # they go on counting in the mode that the board goes on in
     assert seen(server)["absolute"] == before["absolute"] == (relative == "M82")
 
@@ -101,7 +101,7 @@ def test_a_jog_is_a_move(server, ready, path, request_of):
     server.wait_for(lambda: "M121" in seen(server)["sent"][before:], 20, "the jog")
     sent = [line for line in seen(server)["sent"][before:] if line[0] == "G"]
     assert sent == ["G91", "G1 X1 F6000", "G90"]
-    assert modes(ready) == left
+    server.wait_for(lambda: modes(ready) == left, 20, "the modes of before")
 
 
 def test_positions_can_be_read(server, ready):

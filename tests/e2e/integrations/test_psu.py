@@ -93,7 +93,7 @@ def of_power(board, since):
 
 
 @pytest.mark.both_hosts("each queues with its own code")
-def test_off_when_idle(server, board, psucontrol):
+def test_row_29_off_when_idle(server, board, psucontrol):
     """Polls are nobody at work, and what somebody does is."""
     psucontrol(idle=IDLE_SECONDS)
     polls = helpers.status(server)["counters"]["replies"]
@@ -114,7 +114,7 @@ def test_off_when_idle(server, board, psucontrol):
 
 @pytest.mark.both_hosts("each queues with its own code")
 @pytest.mark.parametrize("who", ["typed", "the plugin's command", "PSUControl"])
-def test_pseudo_commands_switch_once(server, board, psucontrol, who):
+def test_row_30_pseudo_commands_switch_once(server, board, psucontrol, who):
     """PSUControl takes M80 and M81 for its own, asks the plugin, and lets that one's through."""
     psucontrol(pseudo=True)
     ask = {

@@ -137,7 +137,8 @@ EXPECTED = {
 
 
 def test_every_fault_has_an_expectation():
-    assert set(EXPECTED) == set(FAULTS)
+    # those of the network are for a board without a line
+    assert set(EXPECTED) == {name for name in FAULTS if not name.startswith("net_")}
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """How soon a change of the machine is seen, and that a new beginning of the board is noticed."""
 
+import time
+
 import pytest
 
 from tests.support.waiting import within
@@ -196,3 +198,28 @@ def test_live_value_by_m408(server, board_factory):
         board.board.execute(f"M140 S{target}")
         key = "heat.heaters[0].active"
         assert helpers.wait_value(server, key, target, helpers.LIVE_SECONDS) == target
+
+
+OWN_SECONDS = 2
+"""OctoPrint's shortest interval between two status requests of its own."""
+
+WATCHED_SECONDS = 8
+
+
+def test_history_of_octoprint_grows_no_faster_than_without_the_plugin(server, board):
+    """OctoPrint keeps each temperature that it hears of, and the plugin asks every second."""
+
+    def kept():
+        shown = server.get("/api/printer", params={"history": "true", "limit": 100}).json()
+        return shown["temperature"]["history"]
+
+    helpers.wait_polls(server, 1)
+    began_at = int(time.time())
+    polls = helpers.status(server)["counters"]["polls"]
+    server.wait_for(
+        lambda: time.time() >= began_at + WATCHED_SECONDS, 2 * WATCHED_SECONDS, "time to go by"
+    )
+    entries = [entry for entry in kept() if entry["time"] > began_at]
+    assert entries
+    assert len(entries) <= WATCHED_SECONDS / OWN_SECONDS + 2
+    assert helpers.status(server)["counters"]["polls"] - polls >= WATCHED_SECONDS / 2

@@ -97,7 +97,7 @@ def klipper(server, name):
     return response.json()["result"]["status"][name]
 
 
-def test_heating_is_seen_everywhere(server, board_factory):
+def test_row_22_heating_is_seen_everywhere(server, board_factory):
     """What OctoPrint shows of a heat-up is in the model, and nothing old is shown as if now."""
     board = board_factory(firmware="3.5.3")
     helpers.connect(server, board)

@@ -1,10 +1,12 @@
 """A printer with another firmware: with the plugin all is as it was without it."""
 
 import re
+from pathlib import Path
 
 import pytest
 import yaml
 
+from tests.support import plugins
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
@@ -12,6 +14,8 @@ from .. import helpers
 from ..operations import AS_OCTOPRINT, PROFILE
 
 pytestmark = pytest.mark.both_hosts("each has its own code for the serial line")
+
+HOOK_NAMES = Path(plugins.__file__).with_name("hook_names.py")
 
 PORT = "VIRTUAL"
 LINES = ["G28", "M104 S45", "G1 X10 F6000", "G1 X20", "G1 X30 Y5", "M104 S0", "M117 end"]
@@ -52,7 +56,9 @@ def sessions(module_server_factory):
     The last of them is the configuration and the counters before all that.
     """
     virtual = {"virtual_printer": {"enabled": True}}
-    with_plugin = module_server_factory(plugins_config=virtual, profile=PROFILE)
+    with_plugin = module_server_factory(
+        plugins_config=virtual, profile=PROFILE, plugin_files=(HOOK_NAMES,)
+    )
     before = without_own_section(with_plugin), helpers.status(with_plugin)["counters"]
     lines = session(with_plugin)
     without = module_server_factory(
@@ -86,6 +92,13 @@ def test_no_command_more_and_none_changed(sessions):
     assert sorted(with_plugin) == sorted(without)
     wanted = [line for line in without if line in LINES]
     assert [line for line in with_plugin if line in LINES] == wanted
+
+
+def test_is_asked_about_no_line(sessions):
+    server, *_ = sessions
+    asked = server.get("/api/plugin/hook_names").json()
+    assert "hook_names" in asked["received"]
+    assert [phase for phase, names in asked.items() if "rrfmodel" in names] == []
 
 
 def test_nothing_of_the_timers_is_new(sessions):

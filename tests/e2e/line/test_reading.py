@@ -92,6 +92,15 @@ def assert_as_the_model(bench, told, names):
         assert told[name]["actual"] == pytest.approx(heater["current"], abs=2), name
 
 
+def is_as_the_model(bench):
+    """Whether OctoPrint shows what the board's own model has."""
+    try:
+        assert_as_the_model(bench, bench.get().json()["temperature"], HEATERS)
+    except AssertionError:
+        return False
+    return True
+
+
 def set_offsets(bench, offsets):
     bench.enter("operational")
     assert bench.post("tool", {**OFFSET, "offsets": {"tool0": offsets["tool0"]}}) == (204, [])
@@ -104,6 +113,8 @@ def heated(bench):
     """Each heater is on, and has an offset of its own."""
     set_offsets(bench, OFFSETS)
     bench.heat()
+    # OctoPrint asks every five seconds
+    bench.server.wait_for(lambda: is_as_the_model(bench), 30, "OctoPrint to know of it")
     yield
     set_offsets(bench, dict.fromkeys(OFFSETS, 0))
 

@@ -110,7 +110,9 @@ def test_connecting_to_a_halted_board(server, board_factory):
     assert warning["fix"] == "recover"
 
 
-def test_who_connects_to_another_board_meanwhile_stays_connected(server, board_factory, times):
+def test_row_12_who_connects_to_another_board_meanwhile_stays_connected(
+    server, board_factory, times
+):
     # time enough to be quicker than the restart
     times(SENDING_SECONDS=20)
     board = board_factory()

@@ -71,7 +71,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_second_goes_out_behind_the_first(machine, case):
+def test_row_3_second_goes_out_behind_the_first(machine, case):
     first, second, line = CASES[case]
     before = len(machine.board.received())
     with PushListener(machine.server, ADMIN) as push:
@@ -106,7 +106,7 @@ def one_extruder(server_factory, board_factory):
     return server, board
 
 
-def test_no_tool_becomes_another(one_extruder):
+def test_row_13_no_tool_becomes_another(one_extruder):
     server, board = one_extruder
     numbers = [tool["number"] for tool in board.board.model["tools"] if tool]
     first, other = numbers[0], numbers[1]

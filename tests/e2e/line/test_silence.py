@@ -1,4 +1,9 @@
-"""Long commands during which the firmware says nothing at all, whatever was asked before."""
+"""Long commands during which the firmware says nothing at all, whatever was asked before.
+
+With RRF_SILENCE (``make silence``) as long as that, in seconds, and with OctoPrint's own timeouts.
+"""
+
+import os
 
 import pytest
 
@@ -7,14 +12,16 @@ from tests.support.push import PushListener
 
 from .. import helpers
 
+REAL = int(os.environ.get("RRF_SILENCE", 0))
+
+SECONDS = REAL or 14
+"""More than twice what OctoPrint waits in all, with short timeouts."""
+
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line"),
     pytest.mark.slow,
-    pytest.mark.timeout(240),
+    pytest.mark.timeout(240 + 2 * REAL),
 ]
-
-SECONDS = 14
-"""More than twice what OctoPrint waits in all."""
 
 MACRO = 'M98 P"0:/macros/wait.g"'
 """OctoPrint's settings don't know it as one that takes long."""
@@ -22,7 +29,7 @@ MACRO = 'M98 P"0:/macros/wait.g"'
 
 @pytest.fixture(scope="module")
 def server(module_server_factory):
-    return module_server_factory(serial=helpers.SHORT_TIMEOUTS)
+    return module_server_factory(**({} if REAL else {"serial": helpers.SHORT_TIMEOUTS}))
 
 
 @pytest.fixture
@@ -42,24 +49,26 @@ def silence(server, board, command):
 
 
 @pytest.mark.parametrize("command", [MACRO, f"G4 S{SECONDS}"])
-def test_silent_command(server, board, command):
+def test_row_1_silent_command(server, board, command):
     with PushListener(server, ADMIN) as push:
         server.commands(command, "M117 behind")
         silence(server, board, command)
-        server.wait_for(lambda: "M117 behind" in helpers.commands(board), 40, "the line behind")
+        server.wait_for(
+            lambda: "M117 behind" in helpers.commands(board), 40 + REAL, "the line behind"
+        )
         assert server.state() == "Operational"
         assert push.events("Disconnected") == push.events("Error") == []
     helpers.assert_quiet(board, command, "M117 behind")
     helpers.wait_polls(server, 2)
 
 
-def test_silent_command_in_a_print(server, board):
+def test_row_1_silent_command_in_a_print(server, board):
     moves = [f"G1 F{6000 + number}" for number in range(60)]
     server.upload("silent.gcode", "\n".join([*moves[:20], MACRO, *moves[20:]]) + "\n")
     with PushListener(server, ADMIN) as push:
         server.select_and_print("silent.gcode")
         silence(server, board, MACRO)
-        push.wait_for_event("PrintDone", 60)
+        push.wait_for_event("PrintDone", 60 + REAL)
         assert push.events("Disconnected") == push.events("Error") == []
     # OctoPrint has sent nothing to wake the printer up, which would earn an ok too many
     helpers.assert_quiet(board, MACRO, moves[20])
@@ -69,7 +78,7 @@ def test_silent_command_in_a_print(server, board):
     assert [command for command in sent if command.startswith("G1 F")] == moves
 
 
-def test_a_dead_board_is_found_after_the_time_of_the_setting(server, board):
+def test_row_1_a_dead_board_is_found_after_the_time_of_the_setting(server, board):
     server.set_setting("plugins.rrfmodel.silence_minutes", 0.1)
     try:
         server.commands("G4 S200")

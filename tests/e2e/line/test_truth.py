@@ -163,6 +163,8 @@ def test_tool_changed_elsewhere(server, board_factory):
         board.board.execute('M98 P"0:/macros/change.g"')
         server.wait_for(lambda: changes(push) == [3, 7], 10, "the change to T7")
         server.commands('M98 P"0:/macros/change.g"', "G4 P10")
+        # which comes when the macro is through
+        server.wait_for(lambda: "G4 P10" in helpers.commands(board), 20, "the end of the macro")
         board.board.execute("T1")
         server.wait_for(lambda: changes(push) == [3, 7, 1], 10, "the change to T1")
         assert push.events("ToolChange")[-1]["old"] == 7

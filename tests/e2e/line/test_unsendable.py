@@ -186,7 +186,7 @@ def hold(server, board, lines, seconds):
     board.board.message(ASKS)
 
 
-def test_box_that_holds_the_line_is_told_and_waited_for(server, connected):
+def test_row_2_box_that_holds_the_line_is_told_and_waited_for(server, connected):
     board = connected()
     with PushListener(server, ADMIN) as push:
         push.wait_for_plugin(bool)
@@ -217,3 +217,65 @@ def test_box_that_holds_a_print_leaves_a_restart(server, connected):
     server.wait_for(lambda: server.state() == "Operational", 60, "the board to be back")
     helpers.wait_ready(server, 30)
     assert not box_warning(server)
+
+
+ASKING = 'M291 R"Tool" P"Is it clean?" S3\nM118 S"went on"\n'
+
+
+def ask_in_a_macro(server, board, start, text=ASKING):
+    """Have OctoPrint start a macro that opens a box, and return once that is in the model."""
+    board.board.card.write("0:/macros/ask.g", text)
+    start()
+    helpers.wait_value(server, "state.messageBox.message", "Is it clean?", 20)
+
+
+def answer(server, action="ok"):
+    # as the page does
+    seq = helpers.value(server, "state.messageBox.seq")
+    request = {"command": "message_box", "action": action, "seq": seq}
+    response = server.post("/api/plugin/rrfmodel", json=request)
+    assert response.status_code == 204, response.text
+
+
+def lines_behind(board, count):
+    return [f"M117 {number}" for number in range(count)] == [
+        text for text in helpers.commands(board) if text.startswith("M117 ")
+    ]
+
+
+@pytest.mark.parametrize("firmware", ["3.4", "3.6.1"])
+def test_row_2_box_of_a_macro_is_answered_over_the_line(server, connected, firmware):
+    """What waits behind it goes out in order, one line for each ok."""
+    board = connected(firmware=firmware)
+    behind = [f"M117 {number}" for number in range(20)]
+    before = helpers.status(server)["counters"]["timeouts"]
+    ask_in_a_macro(server, board, lambda: server.commands(MACRO, *behind))
+    box = helpers.value(server, "state.messageBox")
+    assert (box["title"], box["mode"]) == ("Tool", 3)
+    # OctoPrint's patience is a matter of seconds elsewhere, and a person's isn't
+    assert not box_warning(server)
+    assert not lines_behind(board, 1)
+    answer(server)
+    server.wait_for(lambda: lines_behind(board, len(behind)), 20, "the lines behind")
+    assert board.board.boxes.answers == [None]
+    assert "went on" in server.received()
+    helpers.wait_value(server, "state.messageBox", None, 10)
+    helpers.wait_polls(server, 3)
+    assert helpers.status(server)["counters"]["timeouts"] == before
+
+
+def test_row_2_two_boxes_of_a_macro_in_a_print(server, connected):
+    """The first is answered, the second cancelled: the file's lines go on, each once."""
+    board = connected(firmware="3.4")
+    lines = [f"M117 {number}" for number in range(100)]
+    server.upload("asks.gcode", "\n".join([*lines[:50], MACRO, *lines[50:]]) + "\n")
+    second = 'M291 R"Tool" P"And now?" S3\nM118 S"not reached"\n'
+    ask_in_a_macro(server, board, lambda: server.select_and_print("asks.gcode"), ASKING + second)
+    answer(server)
+    helpers.wait_value(server, "state.messageBox.message", "And now?", 10)
+    assert lines_behind(board, 50)
+    answer(server, "cancel")
+    server.wait_for(lambda: lines_behind(board, 100), 20, "the lines behind")
+    server.wait_state("Operational", 20)
+    assert board.board.boxes.answers == [None, False]
+    assert "not reached" not in server.received()

@@ -23,7 +23,7 @@ def heated(board):
 
 
 @pytest.mark.parametrize("machine", ["toolchanger", "idex"])
-def test_heaters_beyond_the_printer_profile(server, board_factory, machine):
+def test_row_4_heaters_beyond_the_printer_profile(server, board_factory, machine):
     board = board_factory(machine=machine, firmware="3.5.3")
     helpers.connect(server, board)
     model = board.board.model

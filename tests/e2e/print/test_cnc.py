@@ -29,7 +29,7 @@ def program():
 
 
 @pytest.mark.parametrize("waits", [False, True], ids=["default", "waits for unknown"])
-def test_waits_for_each_line(server_factory, board_factory, waits):
+def test_row_14_waits_for_each_line(server_factory, board_factory, waits):
     server = server_factory(serial={"unknownCommandsNeedAck": waits})
     board = board_factory(speed=4)
     helpers.connect(server, board)
@@ -41,12 +41,13 @@ def test_waits_for_each_line(server_factory, board_factory, waits):
     with PushListener(server, ADMIN) as push:
         server.select_and_print("program.gcode")
         server.wait_for(lambda: push.events("PrintDone"), 120, "the end of the print")
-        # done is done: nothing waits on the line
+        # done is told when the last line leaves
+        server.wait_state("Operational")
         arrived = [text.partition("*")[0] for text in board.board.received()[before:]]
     assert [text for text in arrived if text in set(reaching)] == reaching
 
 
-def test_an_asterisk_in_a_text_costs_nothing(server_factory, board_factory):
+def test_row_15_an_asterisk_in_a_text_costs_nothing(server_factory, board_factory):
     server = server_factory()
     board = board_factory(speed=20)
     helpers.connect(server, board)
@@ -62,3 +63,18 @@ def test_an_asterisk_in_a_text_costs_nothing(server_factory, board_factory):
             5,
             "the notice",
         )
+
+
+@pytest.mark.parametrize("stop", ["M00", "N70 m0 (turn the part)"])
+def test_a_stop_in_the_middle_pauses_however_it_is_written(server_factory, board_factory, stop):
+    server = server_factory()
+    board = board_factory(speed=20)
+    helpers.connect(server, board)
+    server.upload("stop.gcode", f'G21\n{stop}\nM118 S"behind"\n')
+    with PushListener(server, ADMIN) as push:
+        server.select_and_print("stop.gcode")
+        push.wait_for_event("PrintPaused", 15)
+        assert "behind" not in "".join(board.board.received())
+        assert server.post("/api/job", json={"command": "pause", "action": "resume"}).ok
+        push.wait_for_event("PrintDone", 15)
+    assert "behind" in "".join(board.board.received())

@@ -42,7 +42,7 @@ def resume(server):
     assert response.status_code == 204, response.text
 
 
-def test_told_at_selection_and_sent_whole(server, board):
+def test_row_21_told_at_selection_and_sent_whole(server, board):
     server.upload("odd.gcode", ODD)
     server.upload("plain.gcode", 'G4 P1 ; "nothing;\nM117 if\n')
     with PushListener(server, ADMIN) as push:

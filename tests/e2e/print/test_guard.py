@@ -29,8 +29,6 @@ FAULTS = [
     pytest.param("vin_off", "off", id="off"),
 ]
 
-MOVES = "\n".join(f"G1 X{20 + n % 100} Y{20 + n // 100} F600" for n in range(4000)) + "\n"
-
 
 # so that OctoPrint soon finds out that an ok was lost
 SHORT_TIMEOUTS = {"timeout": {"communication": 3, "communicationBusy": 3}}
@@ -48,12 +46,7 @@ def printing(server, board_factory):
     def start(**options):
         board = board_factory(**{"machine": "cartesian", "firmware": "3.5.3", **options})
         helpers.connect(server, board)
-        server.commands("G28")
-        helpers.wait_value(server, "move.axes[].homed", [True] * 3, 30)
-        server.upload("long.gcode", MOVES)
-        server.select_and_print("long.gcode")
-        server.wait_state("Printing")
-        helpers.wait_polls(server, 1)
+        helpers.print_long(server)
         return board
 
     yield start
@@ -87,7 +80,7 @@ def paused(push):
 
 
 @pytest.mark.parametrize("firmware", ["3.3", "3.4"])
-def test_driver_error_in_words_alone_pauses(server, printing, firmware):
+def test_row_9_driver_error_in_words_alone_pauses(server, printing, firmware):
     """The model of older firmware shows no drivers: nobody can tell when it is over."""
     board = printing(firmware=firmware)
     board.board.inject("driver_error:2")
@@ -99,7 +92,7 @@ def test_driver_error_in_words_alone_pauses(server, printing, firmware):
     server.wait_state("Printing")
 
 
-def test_one_spoilt_reply_pauses_nothing(server, printing):
+def test_row_10_one_spoilt_reply_pauses_nothing(server, printing):
     """One flipped bit in an up-time, and a heater's state that is read wrong once."""
     board = printing()
     resets = helpers.status(server)["resets"]

@@ -17,7 +17,7 @@ LINES = [f"G1 X{20 + number}.5 F6000" for number in range(40)]
 
 
 @pytest.mark.parametrize("fault, seconds", [("lost_ok:once", 15), ("slow:5", 5 * 12 + 30)])
-def test_print(server_factory, board_factory, fault, seconds):
+def test_row_16_print(server_factory, board_factory, fault, seconds):
     # OctoPrint's own patience is half a minute
     server = server_factory()
     board = board_factory(speed=20)

@@ -80,7 +80,7 @@ def print_until_paused(server, push, name, lines):
     server.wait_for(lambda: pause(server), 5, "the warning")
 
 
-def test_file_that_does_not_home(server, board):
+def test_row_6_file_that_does_not_home(server, board):
     """Not one more line is lost; mended, the file goes through."""
     with PushListener(server, ADMIN) as push:
         print_until_paused(server, push, "unhomed.gcode", ["; a file", "M117 begins", *MOVES])
@@ -177,7 +177,7 @@ def test_each_can_be_switched_off(server, board):
 
 
 @pytest.mark.parametrize("command", ["M600", "M601", "M226", "M25"])
-def test_pauses_of_a_file(server, board, command):
+def test_row_6_pauses_of_a_file(server, board, command):
     lines = ["G4 P1", command, "G4 P2"]
     with PushListener(server, ADMIN) as push:
         print_until_paused(server, push, f"{command}.gcode", lines)

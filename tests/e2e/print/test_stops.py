@@ -22,9 +22,9 @@ def macro(board):
         board.board.card.write("0:/sys/stop.g", 'M118 S"stop.g runs"\n')
 
 
-@pytest.mark.parametrize("stop", ["M0 H1", "M0", "M1"])
+@pytest.mark.parametrize("stop", ["M0 H1", "M00", "M1"])
 @pytest.mark.parametrize("behind", ["", SETTINGS], ids=["bare", "settings"])
-def test_last_command(server, board, stop, behind):
+def test_row_7_last_command(server, board, stop, behind):
     macro(board)
     name = f"{stop.replace(' ', '-')}-{len(behind)}.gcode"
     server.upload(name, f"M140 P0 S50\nM568 P3 S120 A2\nG4 P1\n{stop}\n{behind}")

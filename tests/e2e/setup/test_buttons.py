@@ -54,8 +54,11 @@ def test_settings(server, board, page, page_errors):
     # advice pops up nowhere
     assert page.locator(".ui-pnotify-text", has_text="upper case").count() == 0
     page.locator("[data-test=fix]").click()
-    page.locator("[data-test=advice]").first.wait_for(state="detached", timeout=within(15_000))
-    assert warnings(server) == []
+    # what OctoPrint reads when it connects is left
+    reconnect = page.locator("[data-test=advice]", has_text="takes effect at the next connection")
+    reconnect.wait_for(timeout=within(15_000))
+    expect(page.locator("[data-test=advice]")).to_have_count(1, timeout=within(15_000))
+    assert warnings(server) == ["settings_reconnect"]
     assert page_errors == []
     server.post("/api/plugin/rrfmodel", json={"command": "restore_settings"})
 

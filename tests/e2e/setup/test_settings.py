@@ -173,8 +173,12 @@ def test_profile(server, board_factory, profile):
     assert extruder(server)["count"] == max(numbers) + 1
     assert len(extruder(server)["offsets"]) == max(numbers) + 1
     if is_version_2(server.version):
-        assert "fix" not in warnings(server)["profile_reconnect"]
-        helpers.connect(server, board)
+        assert warnings(server)["profile_reconnect"]["fix"] == "reconnect"
+        assert command(server, "reconnect").status_code == 204
+        server.wait_for(
+            lambda: "profile_reconnect" not in warnings(server), 45, "the new connection"
+        )
+        helpers.wait_ready(server)
     assert not {"profile_tools", "profile_reconnect"} & set(warnings(server))
     server.commands(f"T{max(numbers)}")
     helpers.wait_value(server, "state.currentTool", max(numbers), 20)

@@ -27,7 +27,15 @@ CHECKS = [
     response_schema_conformance,
 ]
 
-DISRUPTIVE = ("emergency_stop", "recover", "fix_settings", "restore_settings", "fix_profile")
+DISRUPTIVE = (
+    "emergency_stop",
+    "recover",
+    "reconnect",
+    "fix_settings",
+    "restore_settings",
+    "fix_profile",
+    "network_password",
+)
 """Commands that would take the printer away from the others, or write settings each time."""
 
 PATH = Path(octoprint_rrfmodel.__file__).parent / "web" / "openapi.json"
@@ -88,7 +96,8 @@ def test_served_as_it_is_in_the_package(server):
 
 def test_every_command_is_described_with_its_parameters():
     schemas = json.loads(PATH.read_text(encoding="utf-8"))["components"]["schemas"]
-    own = {"fix_settings", "restore_settings", "fix_profile", "wizard_done"}
+    own = {"reconnect", "fix_settings", "restore_settings", "fix_profile", "wizard_done"}
+    own.add("network_password")
     described = {
         name[len("Command_") :]: (set(found["properties"]), set(found["required"]))
         for name, found in schemas.items()
@@ -117,5 +126,8 @@ def test_every_route_is_described(server):
         "/plugin/rrfmodel/model/live",
         "/plugin/rrfmodel/files",
         "/plugin/rrfmodel/thumbnail",
+        "/plugin/rrfmodel/heightmap",
+        "/plugin/rrfmodel/machine_files",
+        "/plugin/rrfmodel/machine_file",
     }
     assert rules | tornados | {"/api/plugin/rrfmodel"} == set(described)

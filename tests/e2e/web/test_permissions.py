@@ -12,6 +12,9 @@ BASE = "/plugin/rrfmodel"
 SIMPLE = "/api/plugin/rrfmodel"
 
 READ = "read"
+WATCH = "watch"
+"""Reading, and watching OctoPrint's terminal, which guests may not."""
+
 CONTROL = "control"
 SETTINGS = "settings"
 
@@ -22,10 +25,16 @@ ENDPOINTS = [
     ("GET", f"{BASE}/model", None, READ, 200),
     ("GET", f"{BASE}/model/live?key=state.upTime", None, READ, 200),
     ("GET", f"{BASE}/history", None, READ, 200),
+    ("GET", f"{BASE}/jobs", None, READ, 200),
     ("GET", f"{BASE}/meanings", None, READ, 200),
+    # over a line no file can be read
+    ("GET", f"{BASE}/heightmap", None, READ, 409),
     ("GET", f"{BASE}/files?path=0:/macros", None, READ, 200),
     # nobody has put a picture there
-    ("GET", f"{BASE}/thumbnail?path=square.gcode", None, READ, 404),
+    ("GET", f"{BASE}/thumbnail?path=square.gcode", None, READ, 200),
+    ("GET", f"{BASE}/machine_files?path=0:/sys", None, SETTINGS, 409),
+    ("GET", f"{BASE}/machine_file?path=0:/sys/config.g", None, SETTINGS, 409),
+    ("PUT", f"{BASE}/machine_file", {"path": "0:/sys/a.g", "text": ""}, SETTINGS, 409),
     ("GET", f"{BASE}/setup", None, SETTINGS, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),
@@ -35,6 +44,7 @@ ENDPOINTS = [
     ("GET", f"{BASE}/printer/info", None, READ, 200),
     ("GET", f"{BASE}/server/info", None, READ, 200),
     ("GET", f"{BASE}/server/gcode_store", None, READ, 200),
+    ("GET", f"{BASE}/console", None, WATCH, 200),
     ("POST", f"{BASE}/printer/gcode/script", {"script": "M117 table"}, CONTROL, 200),
     ("POST", SIMPLE, {"command": "fan", "fan": 0, "speed": 0.5}, CONTROL, 204),
     ("POST", SIMPLE, {"command": "refresh"}, CONTROL, 204),
@@ -46,9 +56,12 @@ ENDPOINTS = [
 
 MAY = {
     None: (),
-    READER: (READ,),
-    OPERATOR: (READ, CONTROL),
-    ADMIN: (READ, CONTROL, SETTINGS),
+    READER: (
+        READ,
+        WATCH,
+    ),
+    OPERATOR: (READ, WATCH, CONTROL),
+    ADMIN: (READ, WATCH, CONTROL, SETTINGS),
 }
 
 
@@ -89,11 +102,7 @@ def ask_for_all(client, **options):
 def wanted(may, without_token=False):
     """Return the status of each row for who may so much; without a token OctoPrint refuses POST."""
     return {
-        name_of(row): 400
-        if without_token and row[0] == "POST"
-        else row[4]
-        if row[3] in may
-        else 403
+        name_of(row): 400 if without_token and row[0] != "GET" else row[4] if row[3] in may else 403
         for row in ENDPOINTS
     }
 

@@ -10,6 +10,7 @@ import pytest
 import websocket
 from moonraker_api import MoonrakerClient, MoonrakerListener
 
+from tests.support import coroutines
 from tests.support.basedir import ADMIN, OPERATOR, READER
 
 from .. import helpers
@@ -371,7 +372,7 @@ def test_moonraker_api_subscribes(server):
             await client.disconnect()
             await session.close()
 
-    info, listed, status = asyncio.run(run())
+    info, listed, status = coroutines.run(run())
     assert info["klippy_state"] == "ready"
     assert "toolhead" in listed["objects"] if isinstance(listed, dict) else "toolhead" in listed
     assert len(status["status"]["toolhead"]["position"]) == 4
