@@ -163,12 +163,14 @@ $(function () {
 			feeds.forEach(feed => feed.changed(keys));
 		};
 
-		/** Keys that were pushed since the whole model was asked for, null where it isn't. */
+		/** Keys that were pushed since the model was asked for, or null. */
 		let asked = null;
 		let askingAgain;
-		/** The server's time of the latest state: at a log-in old messages come. */
+		/** The server's time of the latest state. */
 		let toldAt = -Infinity;
-		/** Whether a notice may be one of those, as no state is known yet. */
+		/** And of that before the model was asked for: at a log-in older messages come. */
+		let knownAt = -Infinity;
+		/** Whether a notice may be one of those. */
 		let mayBeOld = true;
 
 		self.requestData = function () {
@@ -177,6 +179,7 @@ $(function () {
 			if (!self.mayRead()) return;
 			OctoPrint.plugins.rrfmodel.getStatus().done(function (answer) {
 				mayBeOld = false;
+				knownAt = answer.at;
 				self.fromLaterStatus(answer);
 				const status = self.status();
 				// before the first age all of it is still to be pushed
@@ -219,7 +222,7 @@ $(function () {
 		self.onStartupComplete = self.requestData;
 		// where the first attempt succeeds OctoPrint calls it no reconnect
 		self.onServerConnect = self.onServerReconnect = function () {
-			toldAt = -Infinity;
+			toldAt = knownAt = -Infinity;
 			self.requestData();
 		};
 		self.onUserPermissionsChanged =
@@ -233,12 +236,11 @@ $(function () {
 
 		self.onDataUpdaterPluginMessage = function (plugin, message) {
 			if (plugin !== "rrfmodel" || !self.mayRead()) return;
-			const isOld = (message.status || message).at < toldAt;
-			if (isOld) return;
+			// a state that was asked for may overtake changes, which come but once
+			if ((message.status || message).at < knownAt) return;
 			if (message.type === "notice") {
 				if (mayBeOld) return;
-				// a print that is paused is a warning for as long as it is, and what the machine
-				// answers to this page is told as it says it
+				// a paused print is a warning, and what the machine answers to this page a reply
 				const isTold =
 					message.code === "print_paused" || (message.code === "refused" && self.mayWatch() && self.awaitsReplies());
 				if (!isTold) self.notify(RRFModel.noticeText(message));
@@ -258,7 +260,7 @@ $(function () {
 				if (asked) keys.forEach(key => asked.add(key));
 				feeds.forEach(feed => feed.changed(keys));
 			}
-			self.fromStatus(message.status);
+			self.fromLaterStatus(message.status);
 		};
 	}
 

@@ -46,10 +46,7 @@ $(function () {
 	const isStill = (_values, seen) => seen.isThrough && status(seen) !== "busy";
 	const isOver = (_values, seen) => seen.isThrough && !seen.told.doing;
 
-	/**
-	 * Command to whether the machine shows it: what it was given, and what is seen. What isn't here
-	 * shows when it is through and the model is newer than that.
-	 */
+	/** Command to whether the machine shows it; what isn't here shows when it is through. */
 	const SHOWS = {
 		tool_temperatures: (values, seen) =>
 			has(toolOf(seen, values.tool).active, values.active) && has(toolOf(seen, values.tool).standby, values.standby),
@@ -119,8 +116,7 @@ $(function () {
 
 		/** Follows what comes of a command that the server has taken; calls `end` then. */
 		const follow = function (name, values, end) {
-			// one question at a time is under way: the answer to the second one from now on was
-			// asked for behind the command
+			// the answer to the second question from now on was asked for behind the command
 			const answers = [];
 			let freeAt = Date.now();
 			let since = null;

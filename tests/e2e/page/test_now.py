@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from .. import helpers
-from . import SECONDS, both_hosts, heat_row, own_errors, part, show_view
+from . import SECONDS, both_hosts, heat_row, own_errors, part, show_view, wait_text
 
 BOARD = {"machine": "idex"}
 
@@ -27,6 +27,8 @@ WATCH = """(places) => {
     const how = {childList: true, subtree: true, characterData: true};
     window.watching.observe(document.body, how);
 }"""
+
+STATE = re.compile(r"/plugin/rrfmodel/status\b")
 
 OLD = re.compile(r"\brrfmodel-old\b")
 AGE = re.compile(r"Value of \d+ s ago")
@@ -71,6 +73,26 @@ def test_homing_is_said_from_its_beginning_to_its_end(page, view, server, page_e
         between = [text for text in said[1:-1] if not text.startswith("Homing")]
         assert set(between) <= {"Busy"}, (place, said)
     assert own_errors(page_errors) == []
+
+
+def test_what_was_pushed_before_a_state_and_comes_behind_it_is_not_lost(page, view, server, board):
+    """On a busy machine an answer overtakes a message that was sent before it."""
+
+    def from_later(route):
+        response = route.fetch()
+        told = response.json()
+        route.fulfill(response=response, json={**told, "at": told["at"] + 3})
+
+    helpers.wait_ready(server)
+    page.route(STATE, from_later)
+    try:
+        # the page asks for the state behind each of its commands
+        part(view, "speed-more").click()
+        wait_text(part(view, "speed-factor"), "105 %", 20)
+        part(view, "speed-less").click()
+        wait_text(part(view, "speed-factor"), "100 %", 20)
+    finally:
+        page.unroute(STATE)
 
 
 def test_temperatures_that_the_line_tells_are_news(page, view, server, board):
