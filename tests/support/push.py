@@ -93,6 +93,15 @@ class PushListener:
             lambda: next(filter(predicate, self.of_plugin(plugin)), None), timeout, what
         )
 
+    def count(self, name: str, wanted: int) -> int:
+        """Return how many events of that name came, once ``wanted`` did or time is up.
+
+        OctoPrint tells a page of an event a little later than of the state that came of it.
+        """
+        with contextlib.suppress(AssertionError):
+            wait_for(lambda: len(self.events(name)) >= wanted, 10, f"{wanted} times {name}")
+        return len(self.events(name))
+
     def wait_for_event(self, name: str, timeout: float = 10) -> Any:
         """Return the payload of the first event of that name; an empty one is a dictionary."""
         found = wait_for(lambda: self.events(name), timeout, f"the event {name}")

@@ -16,13 +16,17 @@ PAUSE_SHARE = 0.1
 # a CI machine is often shared; whoever waits longer only loses time where the test fails anyway
 PATIENCE = 2 if os.environ.get("CI") else 1
 
+# a test that fails must not hold up all others for a quarter of an hour
+MOST = 8
+
 
 def within(seconds: float) -> float:
     """Return how long something may take now that takes so long on a machine that is idle.
 
     Where more wants to run than there are processors, each gets its share only.
     """
-    return seconds * PATIENCE * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+    share = os.getloadavg()[0] / (os.cpu_count() or 1)
+    return seconds * min(PATIENCE * max(1.0, share), MOST)
 
 
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:

@@ -8,6 +8,11 @@ $(function () {
 	/** The last mode of a box that waits for nobody. */
 	const CLOSED_AT_WILL = 1;
 
+	const isFault = warning => /^heater_fault/.test(warning.code);
+	const numberOf = warning => Number(object(warning.values).number);
+	/** Warnings and what they come of. */
+	const all = warnings => list(warnings).flatMap(each => [each, ...list(each.causes)]);
+
 	/** Which permission a command needs that mends something. */
 	const NEEDED_FOR = {
 		recover: "PLUGIN_RRFMODEL_CONTROL",
@@ -49,9 +54,9 @@ $(function () {
 
 		const fixOf = function (warning) {
 			const words = RRFModel.words;
-			const isFault = /^heater_fault/.test(warning.code);
-			const number = Number(object(warning.values).number);
-			const [name, values] = isFault ? ["reset_heater_fault", {heater: number}] : [warning.fix, undefined];
+			const [name, values] = isFault(warning)
+				? ["reset_heater_fault", {heater: numberOf(warning)}]
+				: [warning.fix, undefined];
 			if (!NEEDED_FOR[name] || !core.may(NEEDED_FOR[name])) return null;
 			return {name: name, values: values, text: words.fix[name]};
 		};
@@ -66,7 +71,7 @@ $(function () {
 				.filter(warning => !causes.has(warning.code))
 				.forEach(function (warning) {
 					const text = RRFModel.warningText(warning, nameOf);
-					const fix = [warning, ...list(warning.causes)].map(fixOf).find(Boolean) || null;
+					const fix = all([warning]).map(fixOf).find(Boolean) || null;
 					const last = rows[rows.length - 1];
 					if (fix && last && _.isEqual(last.fix, fix)) {
 						last.texts.push(text);
@@ -94,11 +99,12 @@ $(function () {
 		core.isTold = function (box) {
 			if (!tellsEvent(box)) return false;
 			const key = [box.seq, box.message].join();
-			const number = (HEATER_FAULT.exec(box.message) || [])[1];
+			const number = Number((HEATER_FAULT.exec(box.message) || [])[1]);
 			core.model("heat");
-			// the latest, as both come with one message
+			// the latest, as both come with one message; the line may tell of a fault before
 			const heater = object(list(object(core.latest.heat).heaters)[number]);
-			if (number !== undefined && heater.state === "fault") known.add(key);
+			const isWarned = all(core.status().warnings).some(each => isFault(each) && numberOf(each) === number);
+			if (isWarned || heater.state === "fault") known.add(key);
 			// nor is it news when the fault is over
 			return known.has(key);
 		};

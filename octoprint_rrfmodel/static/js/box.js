@@ -9,7 +9,7 @@ $(function () {
 	const JOG_STEPS = [-10, -1, -0.1, 0.1, 1, 10];
 	/** In mm/min. */
 	const JOG_SPEED = 600;
-	/** Keys and clicks that were meant for what was there before answer no box that just opened. */
+	/** What was meant for what was there before answers no box that just opened. */
 	const UNREAD_MS = 700;
 	/** How long an accepted answer keeps the buttons locked where the box stays as it is. */
 	const ANSWERED_MS = 5000;
@@ -140,8 +140,7 @@ $(function () {
 			if (value !== undefined) values.value = value;
 			// older firmware doesn't count its boxes
 			if (seq() !== null) values.seq = seq();
-			// the box stays in the model until the next poll, and so do its buttons; who presses
-			// again may answer the next box
+			// who presses again before the next poll may answer the next box
 			self.sent(button);
 			const answered = shown;
 			const ifSame = act => () => answered === shown && act();

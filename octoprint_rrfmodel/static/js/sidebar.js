@@ -1,16 +1,10 @@
 /* The sidebar: what RepRapFirmware says of the machine, as it comes by push. */
 $(function () {
-	/**
-	 * @typedef {{name: string, current: string, active: string, standby: string,
-	 *            state: string, stateText: string, labelClass: string}} HeaterRow
-	 * @typedef {{letter: string, position: string, homed: boolean, title: string}} AxisMark
-	 */
-
 	let words;
 
 	const show = RRFModel.show;
 
-	/** @returns {HeaterRow} */
+	/** Returns the row of a heater. */
 	function heaterRow(key, name, heater, index) {
 		const state = words.heater[heater.state] || {text: heater.state || "", label: ""};
 		return {
@@ -26,7 +20,7 @@ $(function () {
 		};
 	}
 
-	/** @returns {HeaterRow[]} one for each heater, after the first tool that has it */
+	/** Returns a row for each heater, after the first tool that has it. */
 	function heaterRows(model) {
 		const heat = model.heat || {};
 		const heaters = heat.heaters || [];
@@ -56,7 +50,7 @@ $(function () {
 		return rows;
 	}
 
-	/** @returns {AxisMark[]} one for each axis that is meant to be seen */
+	/** Returns a mark for each axis that is meant to be seen. */
 	function axisMarks(model) {
 		const axes = (model.move || {}).axes || [];
 		return axes

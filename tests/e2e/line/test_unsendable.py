@@ -120,7 +120,7 @@ def test_streamed(server, connected):
         server.wait_state("Operational", 20)
         # events come later than the state that they tell of
         push.wait_for_event("PrintDone")
-        assert len(push.events("PrintPaused")) == len(stops)
+        assert push.count("PrintPaused", len(stops)) == len(stops)
         (notice,) = [found for found in push.of_plugin() if found.get("code") == "print_paused"]
         assert '"Is it S1 there?"' in notice["text"]
         assert "resume the print" in notice["text"]

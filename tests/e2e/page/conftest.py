@@ -196,6 +196,10 @@ def reader_page(at_rest):
     return at_rest(READER)
 
 
+BLANK = "/blank"
+NO_ICON = "<link rel=icon href='data:,'>"
+
+
 @pytest.fixture
 def own_page(context_of, server, page_errors):
     """A page of the admin that isn't opened yet, for tests of what comes with opening it.
@@ -203,6 +207,11 @@ def own_page(context_of, server, page_errors):
     The browser knows the admin and OctoPrint's files already.
     """
     page = chromium.new_page(context_of(ADMIN), page_errors)
+    # what tests before have made their page remember
+    page.route(f"{server.url}{BLANK}", lambda route: route.fulfill(content_type="text/html", body=NO_ICON))
+    page.goto(f"{server.url}{BLANK}")
+    page.evaluate("window.localStorage.clear()")
+    page.unroute(f"{server.url}{BLANK}")
     yield page
     if page.url.startswith(server.url):
         page.evaluate("window.localStorage.clear()")

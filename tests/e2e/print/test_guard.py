@@ -138,7 +138,7 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         told = pause(server)
         assert told["values"]["next"] == "wait"
         assert code in [cause["code"] for cause in told["causes"]]
-        assert len(push.events("PrintPaused")) == 1
+        assert push.count("PrintPaused", 1) == 1
 
         # however it is said
         for request in ({}, {"action": "toggle"}, {"command": "restart"}):
@@ -171,7 +171,7 @@ def test_pauses_until_it_is_over(server, printing, fault, code):
         # time enough to be paused once more
         helpers.wait_polls(server, 2)
         assert server.state() == "Printing"
-        assert len(push.events("PrintPaused")) == 1
+        assert push.count("PrintPaused", 1) == 1
         assert paused(push) == told_of
 
 
