@@ -17,7 +17,7 @@ PAUSE_SHARE = 0.1
 PATIENCE = 2 if os.environ.get("CI") else 1
 
 # a test that fails must not hold up all others for a quarter of an hour
-MOST = 8
+MOST_SECONDS = 300
 
 
 def within(seconds: float) -> float:
@@ -25,8 +25,9 @@ def within(seconds: float) -> float:
 
     Where more wants to run than there are processors, each gets its share only.
     """
+    patient = seconds * PATIENCE
     share = os.getloadavg()[0] / (os.cpu_count() or 1)
-    return seconds * min(PATIENCE * max(1.0, share), MOST)
+    return max(patient, min(patient * share, MOST_SECONDS))
 
 
 def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the condition") -> T:
