@@ -4,7 +4,7 @@
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9
-JOBS ?= 4
+JOBS ?= 3
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 MINUTES ?= 10
