@@ -42,11 +42,11 @@ class Caller:
 
     def may_read(self):
         """Return whether the user may read the model now."""
-        return self._may("PLUGIN_RRFMODEL_READ")
+        return self.may("PLUGIN_RRFMODEL_READ")
 
     def may_control(self):
         """Return whether the user may command the machine now."""
-        return self._may("PLUGIN_RRFMODEL_CONTROL")
+        return self.may("PLUGIN_RRFMODEL_CONTROL")
 
     def logged_out(self, user):
         """Note that a session has ended: this one's, if it is the same."""
@@ -56,7 +56,8 @@ class Caller:
         if self.is_of_session and is_same and user.get_id() == self._user.get_id():
             self._is_out = True
 
-    def _may(self, permission):
+    def may(self, permission):
+        """Return whether the user has one of OctoPrint's permissions now, by its name."""
         user = self._current()
         return user is not None and user.has_permission(getattr(Permissions, permission))
 

@@ -4,7 +4,6 @@ import flask
 from octoprint.plugin import BlueprintPlugin
 
 from .meanings_api import get_meanings
-from .moonraker.moonraker_api import body
 
 
 class Endpoints(BlueprintPlugin):
@@ -57,30 +56,6 @@ class Endpoints(BlueprintPlugin):
     def get_openapi(self):
         return self._api.get_openapi()
 
-    @BlueprintPlugin.route("/printer/objects/list", methods=["GET"])
-    def get_objects(self):
-        return self._moonraker.get_list()
-
-    @BlueprintPlugin.route("/printer/objects/query", methods=["GET"])
-    def get_objects_query(self):
-        return self._moonraker.get_query(flask.request.args)
-
-    @BlueprintPlugin.route("/printer/objects/query", methods=["POST"])
-    def post_objects_query(self):
-        return self._moonraker.post_query(body())
-
-    @BlueprintPlugin.route("/printer/info", methods=["GET"])
-    def get_printer_info(self):
-        return self._moonraker.get_printer_info()
-
-    @BlueprintPlugin.route("/server/info", methods=["GET"])
-    def get_server_info(self):
-        return self._moonraker.get_server_info()
-
-    @BlueprintPlugin.route("/printer/gcode/script", methods=["POST"])
-    def post_gcode_script(self):
-        return self._moonraker.post_script(flask.request.args, body())
-
-    @BlueprintPlugin.route("/server/gcode_store", methods=["GET"])
-    def get_gcode_store(self):
-        return self._moonraker.get_gcode_store(flask.request.args)
+    @BlueprintPlugin.route("/<path:path>", methods=["GET", "POST", "DELETE"])
+    def respond_as_moonraker(self, path):
+        return self._moonraker.respond(path)

@@ -11,7 +11,9 @@ pytest.importorskip("octoprint")
 
 from tornado.ioloop import IOLoop
 
+from octoprint_rrfmodel.web.moonraker.methods import Methods
 from octoprint_rrfmodel.web.moonraker.off_loop import OffLoop
+from octoprint_rrfmodel.web.moonraker.printer_methods import printer_methods
 from octoprint_rrfmodel.web.moonraker.subscribers import Subscribers
 from octoprint_rrfmodel.web.moonraker.websocket import PrinterSocket, SocketHub
 from tests.support import coroutines
@@ -29,7 +31,7 @@ class Socket:
         self._hub = hub
         self.id = 1
         self.got = []
-        self.caller = SimpleNamespace(may_read=lambda: True, may_control=lambda: True)
+        self.caller = SimpleNamespace(may=lambda permission: True)
         hub.opened(self)
 
     def ask(self, method, number, params=None):
@@ -55,9 +57,11 @@ class Bench:
         )
         loop = IOLoop.current()
         run = OffLoop(loop).run
+        scripts = SimpleNamespace(emergency_stop=self.stop)
+        methods = printer_methods(objects, scripts, None, websocket_count=lambda: 1)
         self.hub = SocketHub(
-            objects,
-            SimpleNamespace(emergency_stop=self.stop),
+            Methods(methods),
+            objects.state,
             Subscribers(lambda: None, loop, run),
             find_user=None,
             run=run,

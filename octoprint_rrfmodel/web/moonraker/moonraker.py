@@ -3,8 +3,11 @@
 from functools import partial
 
 from ...host.streamed_job import StreamedJob
+from .connection_methods import connection_methods
 from .gcode_store import GcodeStore
+from .methods import Methods
 from .moonraker_api import MoonrakerApi
+from .printer_methods import printer_methods
 from .printer_objects import PrinterObjects
 from .scripts import GcodeScripts
 from .sockets import Sockets
@@ -27,11 +30,17 @@ class Moonraker:
         scripts = GcodeScripts(self.objects.is_connected, link, rate)
         self.store = GcodeStore(link, partial(notify, "line"))
         """What was said on the line; is told of each command that goes out."""
-        self.sockets = Sockets(self.objects, scripts, host.users, clock=clock)
+        self.sockets = Sockets(self.objects, lambda: methods, host.users, clock=clock)
         self.job.attach(self.sockets.announce)
-        self.api = MoonrakerApi(
-            self.objects, scripts, self.store, websocket_count=self.sockets.count
+        methods = Methods(
+            (
+                *printer_methods(
+                    self.objects, scripts, self.store, websocket_count=self.sockets.count
+                ),
+                *connection_methods(),
+            )
         )
+        self.api = MoonrakerApi(methods)
 
     def start(self):
         """Begin to listen to OctoPrint."""

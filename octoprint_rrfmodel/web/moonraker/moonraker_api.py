@@ -1,16 +1,73 @@
-"""Printer objects over HTTP, in Moonraker's forms; answered from what is known."""
+"""Moonraker's methods over HTTP: a path and what it was given become a call, and its answer."""
+
+import json
 
 import flask
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
-from ...host.answers import RequestRefused, answer, may_read
+from ...host.answers import RequestRefused, answer
 from ...host.request_json import json_of
-from ...rrf import klipper
-from .gcode_store import MOST_LINES
+from .methods import Call, run
 
 KEY_ARGUMENT = "apikey"
-"""OctoPrint's own argument, which is no object."""
+"""OctoPrint's own argument, which no method is given."""
+
+OBJECTS = "printer/objects/query"
+"""The path whose arguments are names of objects, each with its fields or none for all of them."""
+
+HINTS = {
+    "int": int,
+    "float": float,
+    "bool": lambda text: text.lower() == "true",
+    "json": json.loads,
+    "str": str,
+}
+"""What a value is that has its kind behind its name (Moonraker 0.9, introduction to its API)."""
+
+
+class RequestCaller:
+    """The user of the request that Flask answers."""
+
+    def may(self, permission):
+        """Return whether the user has one of OctoPrint's permissions, by its name."""
+        return getattr(Permissions, permission).can()
+
+    def may_read(self):
+        """Return whether the user may read the model."""
+        return self.may("PLUGIN_RRFMODEL_READ")
+
+    def may_control(self):
+        """Return whether the user may command the machine."""
+        return self.may("PLUGIN_RRFMODEL_CONTROL")
+
+
+class MoonrakerApi:
+    """Answers requests in Moonraker's forms by the table of its methods."""
+
+    def __init__(self, methods):
+        self._methods = methods
+
+    def respond(self, path):
+        """Return the answer to the request that Flask has, at a path below the prefix."""
+        verb = flask.request.method
+        method = self._methods.at("GET" if verb == "HEAD" else verb, path)
+        try:
+            if method is None:
+                return self._unknown(path)
+            return answer({"result": run(method, Call(_params(path), RequestCaller()))})
+        except RequestRefused as error:
+            return failure(error.status, str(error))
+
+    def _unknown(self, path):
+        verbs = self._methods.verbs_of(path)
+        if not verbs:
+            return failure(404, gettext("There is nothing at this address."))
+        told = failure(
+            405, gettext("This address is asked with %(verbs)s.", verbs=", ".join(verbs))
+        )
+        told.headers["Allow"] = ", ".join(verbs)
+        return told
 
 
 def failure(status, text):
@@ -18,74 +75,25 @@ def failure(status, text):
     return answer({"error": {"code": status, "message": text}}, status)
 
 
-class MoonrakerApi:
-    """Answers requests in Moonraker's forms.
-
-    ``objects`` gives the printer objects, ``scripts`` sends G-code, ``store`` has what was said,
-    ``websocket_count()`` is the number of open sockets.
-    """
-
-    def __init__(self, objects, scripts, store, *, websocket_count):
-        self._objects = objects
-        self._scripts = scripts
-        self._store = store
-        self._websocket_count = websocket_count
-
-    def get_list(self):
-        """Return the names of the objects that there are."""
-        return self._read(lambda: {"objects": self._objects.names()})
-
-    def get_query(self, arguments):
-        """Return the objects that the arguments name; a bare name means all of its fields."""
-        wanted = {
-            name: fields.split(",") if fields else None
-            for name, fields in arguments.items()
-            if name != KEY_ARGUMENT
-        }
-        return self._read(lambda: self._objects.query(klipper.wanted_of(wanted)))
-
-    def post_query(self, data):
-        """Return the objects that a body names."""
-        objects = data.get("objects") if isinstance(data, dict) else None
-        return self._read(lambda: self._objects.query(klipper.wanted_of(objects)))
-
-    def get_server_info(self):
-        """Return what ``server.info`` answers."""
-        return self._read(lambda: self._objects.server_info(self._websocket_count()))
-
-    def get_printer_info(self):
-        """Return what ``printer.info`` answers."""
-        return self._read(self._objects.printer_info)
-
-    def get_gcode_store(self, arguments):
-        """Return the latest commands and responses."""
-        count = arguments.get("count", str(MOST_LINES))
-        if not (count.isascii() and count.isdigit() and len(count) < 10):
-            if not may_read():
-                return failure(403, gettext("You may not read the machine's model."))
-            return failure(400, gettext("The count is a whole number of lines."))
-        return self._read(lambda: {"gcode_store": self._store.latest(int(count))})
-
-    def post_script(self, arguments, data):
-        """Queue the lines of a script."""
-        if not Permissions.PLUGIN_RRFMODEL_CONTROL.can():
-            return failure(403, gettext("You may not do that. Ask an administrator."))
-        script = data.get("script") if isinstance(data, dict) else None
-        try:
-            self._scripts.run(arguments.get("script", script))
-        except RequestRefused as error:
-            return failure(error.status, str(error))
-        return answer({"result": "ok"})
-
-    def _read(self, result):
-        if not may_read():
-            return failure(403, gettext("You may not read the machine's model."))
-        try:
-            return answer({"result": result()})
-        except ValueError as error:
-            return failure(400, str(error))
+def _params(path):
+    """Return what a method is given: the address's arguments before those of the body."""
+    arguments = {name: value for name, value in flask.request.args.items() if name != KEY_ARGUMENT}
+    # OctoPrint's server hands on no body of other requests
+    body = json_of(flask.request, force=True) if flask.request.method == "POST" else None
+    body = body if isinstance(body, dict) else {}
+    if path == OBJECTS and flask.request.method != "POST":
+        fields = {name: value.split(",") if value else None for name, value in arguments.items()}
+        return {"objects": fields}
+    return {**body, **dict(_hinted(name, value) for name, value in arguments.items())}
 
 
-def body():
-    """Return the request's JSON, ``None`` where it is none."""
-    return json_of(flask.request, force=True)
+def _hinted(name, value):
+    name, _, kind = name.partition(":")
+    if kind not in HINTS:
+        return name, value
+    try:
+        return name, HINTS[kind](value)
+    except (ValueError, RecursionError):
+        raise RequestRefused(
+            400, gettext("%(name)s is not of the kind %(kind)s.", name=name, kind=kind)
+        ) from None

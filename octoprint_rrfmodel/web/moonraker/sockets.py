@@ -13,13 +13,13 @@ TICK_SECONDS = 1.0
 class Sockets(LoginStatusListener):
     """Serves the websocket's route and hands news to Tornado's loop; a listener.
 
-    ``objects`` gives the printer objects, ``scripts`` sends G-code, ``users()`` is OctoPrint's
-    user manager.
+    ``objects`` gives the printer objects, ``methods()`` is the table of what can be asked,
+    ``users()`` OctoPrint's user manager.
     """
 
-    def __init__(self, objects, scripts, users, *, clock):
+    def __init__(self, objects, methods, users, *, clock):
         self._objects = objects
-        self._scripts = scripts
+        self._methods = methods
         self._users = users
         self._clock = clock
         self._ticked_at = 0.0
@@ -32,8 +32,8 @@ class Sockets(LoginStatusListener):
         self._loop = IOLoop.current()
         run = OffLoop(self._loop).run
         self._hub = SocketHub(
-            self._objects,
-            self._scripts,
+            self._methods(),
+            self._objects.state,
             Subscribers(self._objects.world, self._loop, run),
             find_user=self._find_user,
             run=run,

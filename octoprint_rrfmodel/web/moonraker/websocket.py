@@ -10,11 +10,12 @@ from typing import Any, NamedTuple
 import tornado.websocket
 
 from ...host.answers import RequestRefused
-from ...rrf import klipper
 from ..access import WithoutKeys, caller_of
 from ..origin import is_own
 from . import jsonrpc
 from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
+from .methods import Call, run
+from .printer_methods import EMERGENCY_STOP
 
 MOST_UNSENT = 4_000_000
 """Bytes that may wait for a reader; one that lets more pile up is dropped."""
@@ -23,8 +24,6 @@ LARGEST_MESSAGE = 100_000
 
 SHORT_MESSAGE = 1_000
 """Characters of a message that may be worked on at once if there is an emergency stop in it."""
-
-EMERGENCY_STOP = "printer.emergency_stop"
 
 POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
@@ -120,14 +119,14 @@ class Asking(NamedTuple):
 class SocketHub:
     """Answers what sockets ask, and tells all of them what they didn't ask for.
 
-    ``objects`` gives and describes the printer objects, ``scripts`` sends G-code, ``subscribers``
-    keeps who wants what; ``find_user(name)`` is OctoPrint's. ``run(function)`` gives a future of
-    its result, which it works out off the loop.
+    ``methods`` is the table of what can be asked (``Methods``), ``state()`` the printer's state in
+    Klipper's words, ``subscribers`` keeps who wants what; ``find_user(name)`` is OctoPrint's.
+    ``run(function)`` gives a future of its result, which it works out off the loop.
     """
 
-    def __init__(self, objects, scripts, subscribers, *, find_user, run):
-        self._objects = objects
-        self._scripts = scripts
+    def __init__(self, methods, state, subscribers, *, find_user, run):
+        self._methods = methods
+        self._now = state
         self._subscribers = subscribers
         self.find_user = find_user
         self.run = run
@@ -135,21 +134,11 @@ class SocketHub:
         """Those that are open."""
         self._state = None
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.websocket")
-        self._methods = {
-            "server.info": (self._server_info, "may_read"),
-            "server.connection.identify": (self._identify, "may_read"),
-            "printer.info": (self._printer_info, "may_read"),
-            "printer.objects.list": (self._list, "may_read"),
-            "printer.objects.query": (self._query, "may_read"),
-            "printer.objects.subscribe": (self._subscribe, "may_read"),
-            "printer.gcode.script": (self._script, "may_control"),
-            EMERGENCY_STOP: (self._emergency_stop, "may_control"),
-        }
 
     def opened(self, socket):
         """Note a new client."""
         if not self.sockets:
-            self._state = self._objects.state()
+            self._state = self._now()
         self.sockets.add(socket)
 
     def closed(self, socket):
@@ -176,13 +165,11 @@ class SocketHub:
 
     def _call(self, asking, method, params):
         """Return a method's result; raise ``RpcError``."""
-        if method not in self._methods:
+        found = self._methods.named(method)
+        if found is None:
             raise RpcError(METHOD_NOT_FOUND, f"There is no method {method[:100]}.")
-        run, permission = self._methods[method]
-        if permission != "may_read" and not getattr(asking.socket.caller, permission)():
-            raise RpcError(REFUSED, "You may not do that. Ask an administrator.")
         try:
-            return run(asking, params)
+            return run(found, Call(params, asking.socket.caller, asking))
         except RequestRefused as error:
             code = INVALID_PARAMS if error.status == 400 else REFUSED
             raise RpcError(code, str(error)) from None
@@ -191,7 +178,7 @@ class SocketHub:
         """Tell the sockets what is new; called after each reply and each news of OctoPrint's."""
         if not self.sockets:
             return
-        state = self._objects.state()
+        state = self._now()
         if state != self._state:
             self._state = state
             method = KLIPPY_NOTIFICATIONS.get(state)
@@ -230,37 +217,6 @@ class SocketHub:
         for socket in list(self.sockets):
             socket.send(text)
 
-    ##~~ methods
-
-    def _server_info(self, asking, params):
-        return self._objects.server_info(len(self.sockets))
-
-    def _identify(self, asking, params):
-        return {"connection_id": asking.socket.id}
-
-    def _printer_info(self, asking, params):
-        return self._objects.printer_info()
-
-    def _list(self, asking, params):
-        return {"objects": self._objects.names()}
-
-    def _query(self, asking, params):
-        return self._objects.query(_wanted(params))
-
-    def _subscribe(self, asking, params):
-        wanted = _wanted(params)
-        found = self._objects.query(wanted)
-        asking.subscribed.append((wanted, found["status"]))
-        return found
-
-    def _script(self, asking, params):
-        self._scripts.run(params.get("script"))
-        return "ok"
-
-    def _emergency_stop(self, asking, params):
-        self._scripts.emergency_stop()
-        return "ok"
-
 
 KLIPPY_NOTIFICATIONS = {
     "ready": "notify_klippy_ready",
@@ -268,10 +224,3 @@ KLIPPY_NOTIFICATIONS = {
     "disconnected": "notify_klippy_disconnected",
 }
 """What a state of the printer is announced as; the others aren't."""
-
-
-def _wanted(params):
-    try:
-        return klipper.wanted_of(params.get("objects"))
-    except ValueError as error:
-        raise RpcError(INVALID_PARAMS, str(error)) from None

@@ -208,7 +208,9 @@ def own_page(context_of, server, page_errors):
     """
     page = chromium.new_page(context_of(ADMIN), page_errors)
     # what tests before have made their page remember
-    page.route(f"{server.url}{BLANK}", lambda route: route.fulfill(content_type="text/html", body=NO_ICON))
+    page.route(
+        f"{server.url}{BLANK}", lambda route: route.fulfill(content_type="text/html", body=NO_ICON)
+    )
     page.goto(f"{server.url}{BLANK}")
     page.evaluate("window.localStorage.clear()")
     page.unroute(f"{server.url}{BLANK}")

@@ -238,3 +238,21 @@ def test_moonrakerpy_as_a_guest(server, monkeypatch):
         assert printer.send_gcode("M117 no") is False
     finally:
         server.put("/api/access/groups/guests", json=group)
+
+
+# addresses
+
+
+@pytest.mark.both_hosts("each has its own way with what is not found")
+def test_errors_have_moonrakers_form_everywhere(server):
+    with server.client(OPERATOR) as client:
+        assert_failure(client.get(f"{BASE}/server/nothing"), 404)
+        assert_failure(client.get(f"{BASE}/nothing/at/all"), 404)
+        told = client.get(f"{BASE}/printer/gcode/script")
+        assert_failure(told, 405)
+        assert told.headers["Allow"] == "POST"
+
+
+@pytest.mark.parametrize("count, status", [("count:int=2", 200), ("count:int=x", 400)])
+def test_a_value_may_have_its_kind_behind_its_name(server, count, status):
+    assert server.get(f"{BASE}/server/gcode_store?{count}").status_code == status

@@ -53,6 +53,8 @@ def api(server):
     return loaded
 
 
+MOONRAKERS = ("/plugin/rrfmodel/printer/", "/plugin/rrfmodel/server/")
+
 schema = schemathesis.pytest.from_fixture("api")
 
 
@@ -130,4 +132,7 @@ def test_every_route_is_described(server):
         "/plugin/rrfmodel/machine_files",
         "/plugin/rrfmodel/machine_file",
     }
-    assert rules | tornados | {"/api/plugin/rrfmodel"} == set(described)
+    # one rule for all of Moonraker's methods, whose table has their paths; each is asked above
+    moonrakers = {path for path in described if path.startswith(MOONRAKERS)}
+    rules.remove("/plugin/rrfmodel/<path:path>")
+    assert rules | tornados | {"/api/plugin/rrfmodel"} == set(described) - moonrakers

@@ -1,0 +1,63 @@
+"""Methods about the printer and what was said to it: objects, G-code, the emergency stop."""
+
+from flask_babel import gettext
+
+from ...host.answers import RequestRefused
+from ...rrf import klipper
+from .gcode_store import MOST_LINES
+from .methods import Method
+
+CONTROL = "PLUGIN_RRFMODEL_CONTROL"
+
+EMERGENCY_STOP = "printer.emergency_stop"
+
+
+def printer_methods(objects, scripts, store, *, websocket_count):
+    """Return the rows; ``websocket_count()`` is the number of sockets that are open.
+
+    ``objects`` gives the printer objects, ``scripts`` sends G-code, ``store`` has what was said.
+    """
+
+    def run_script(call):
+        scripts.run(call.params.get("script"))
+        return "ok"
+
+    def stop(call):
+        scripts.emergency_stop()
+        return "ok"
+
+    def subscribe(call):
+        if call.socket is None:
+            raise RequestRefused(400, gettext("Objects are subscribed to by a websocket."))
+        wanted = wanted_of(call)
+        found = objects.query(wanted)
+        call.socket.subscribed.append((wanted, found["status"]))
+        return found
+
+    return (
+        Method("server.info", lambda call: objects.server_info(websocket_count())),
+        Method("server.gcode_store", lambda call: said_lately(call, store)),
+        Method("printer.info", lambda call: objects.printer_info()),
+        Method("printer.objects.list", lambda call: {"objects": objects.names()}),
+        Method(
+            "printer.objects.query",
+            lambda call: objects.query(wanted_of(call)),
+            verbs=("GET", "POST"),
+        ),
+        Method("printer.objects.subscribe", subscribe, verbs=("POST",)),
+        Method("printer.gcode.script", run_script, CONTROL, verbs=("POST",)),
+        Method(EMERGENCY_STOP, stop, CONTROL, verbs=("POST",)),
+    )
+
+
+def wanted_of(call):
+    """Return the objects that a call names, each with its fields."""
+    try:
+        return klipper.wanted_of(call.params.get("objects"))
+    except ValueError as error:
+        raise RequestRefused(400, str(error)) from None
+
+
+def said_lately(call, store):
+    """Return the latest commands and responses."""
+    return {"gcode_store": store.latest(min(call.whole("count", MOST_LINES), MOST_LINES))}
