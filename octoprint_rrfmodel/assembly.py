@@ -29,6 +29,7 @@ from .link.last_simulation import LastSimulation
 from .link.links import Links
 from .link.listeners import Listeners
 from .link.network.beside import Beside
+from .link.network.beside_files import BesideFiles, FilesInUse
 from .link.network.network import Network
 from .link.poller import Poller
 from .link.questions import Questions
@@ -104,13 +105,8 @@ class Assembly:
     def _make_card_and_poller(self):
         known = self._known
         job = SdJob(known.model, known.is_current, self.link.send_later, clock=self._clock)
-        self._card = SdCard(
-            CardPlan(),
-            job,
-            self.link,
-            model=known.model,
-            is_reworded=partial(self._host.is_set, "replies"),
-        )
+        reworded = partial(self._host.is_set, "replies")
+        self._card = SdCard(CardPlan(), job, self.link, model=known.model, is_reworded=reworded)
         self.link.attach(self._card)
         self._poller = Poller(
             self._follower,
@@ -141,6 +137,7 @@ class Assembly:
         told = {"warnings": self._all_warnings, "is_first_run": self.setup.is_first_run}
         notes = {"notify": self.worker.notify, "clock": self._clock}
         self.beside = Beside(host.settings, self._links, known, **notes)
+        self.link.beside = BesideFiles(self.beside, model, host.folder, clock=self._clock)
         told.update(heater_ages=self._heater_ages, simulated_file=self._simulation, **prints.told)
         told["beside"] = self.beside.is_found
         self.status = PluginStatus(host.version, self._links, self._poller, known=known, **told)
@@ -157,6 +154,7 @@ class Assembly:
             Network(self._links, host, known=known, sent=sent, **notes) for _ in range(IS_2)
         )
         """What boards on the network stand on; none in 1.11."""
+        self.machine_files = FilesInUse(self._links, self.networks, self.link.beside)
         self._network_requests = [NetworkRequests(each.memory) for each in self.networks]
         more = {name: run for each in self._network_requests for name, run in each.commands()}
         self.commands = PluginCommands(self._commands, self.setup, more=more)
@@ -218,7 +216,7 @@ class Assembly:
             self._boxes,
             self._guard,
             self._file_check,
-            *(self.link, self.beside, *self.networks),
+            *(self.link, self.beside, self.link.beside, *self.networks),
             *(self._poller, self._heater_ages, self._simulation),
             self.prints.jobs,
             self._push,

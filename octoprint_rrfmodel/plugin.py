@@ -169,7 +169,7 @@ class RrfModelPlugin(
 
         questions, model = self.parts.questions, self.parts.model
         live = {"questions": questions, "app": app}
-        files = {**live, "files": [each.machine_files for each in self.parts.networks]}
+        files = {**live, "files": self.parts.machine_files}
         folders = Folders(questions.ask_about_the_card, questions.changes_of_the_card)
         return [
             (r"/model/live", LiveModelHandler, live),

@@ -16,7 +16,6 @@ from octoprint.server.util.tornado import access_validation_factory
 
 from ..host.answers import RequestRefused
 from ..host.own_thread import on_a_thread_of_its_own
-from ..link.network.reasons import no_board_sentence
 from .live_api import LiveModelHandler
 
 WAIT_SECONDS = 60.0
@@ -24,7 +23,7 @@ WAIT_SECONDS = 60.0
 
 
 class _OfMachine(LiveModelHandler):
-    """Lets in who may change settings; ``files`` are ``MachineFiles``, none without a network."""
+    """Lets in who may change settings; ``files`` are those in use."""
 
     def initialize(self, questions, app, files):
         """Take what Tornado hands over from the route."""
@@ -44,13 +43,9 @@ class _OfMachine(LiveModelHandler):
 
     async def _carried_out(self, name, *arguments):
         """Write the answer of one of the files' methods."""
-        if not self._files:
-            self._refuse(409, no_board_sentence())
-            return
-        (files,) = self._files
         future = Future()
         future.set_running_or_notify_cancel()
-        call = getattr(files, name)
+        call = getattr(self._files, name)
         on_a_thread_of_its_own(_carry_out, future, call, arguments, name="rrfmodel.machine_files")
         question = asyncio.wait_for(asyncio.wrap_future(future), WAIT_SECONDS)
         answer = await self._answer_of(question)

@@ -54,6 +54,8 @@ class SerialLink(Link):
         self.later = later or (lambda function, *arguments: function(*arguments))
         self._notify = notify
         self._card = None
+        self.beside = None
+        """What reads the board's height map over its network, ``None`` for nobody."""
         self._last = None
         self._lost_ok = LostOk(self, clock)
         self.box = BoxAnswer(self)
@@ -252,6 +254,13 @@ class SerialLink(Link):
         comm = self.connection
         rate = comm.getConnection()[1] if comm is not None else 0
         return rate if isinstance(rate, int) else 0
+
+    @property
+    def height_map(self):
+        return self.beside and self.beside.height_map
+
+    def read_height_map(self):
+        return self.beside and self.beside.read_height_map()
 
     def is_streaming_a_print(self):
         comm = self.connection

@@ -67,6 +67,8 @@ $(function () {
 		self.mayControl = ko.pureComputed(() => self.may("PLUGIN_RRFMODEL_CONTROL"));
 		/** Another number after each reset and with each machine. */
 		self.resets = ko.pureComputed(() => [self.status().resets, (self.status().firmware || {}).electronics].join());
+		/** Whether the card's files can be read. */
+		self.hasNetwork = () => self.status().link === "network" || !!self.status().beside;
 		/** As OctoPrint's terminal has it. */
 		self.mayWatch = ko.pureComputed(() => self.mayRead() && self.may("MONITOR_TERMINAL"));
 		self.maySet = ko.pureComputed(() => self.may("SETTINGS"));

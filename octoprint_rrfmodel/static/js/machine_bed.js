@@ -93,7 +93,7 @@ $(function () {
 		/** Asked for where the machine's files can be read, whenever the mesh is another one. */
 		const wanted = ko.pureComputed(function () {
 			const {file, meshDeviation} = compensation();
-			const isKnown = core.status().link === "network" && file && meshDeviation;
+			const isKnown = core.hasNetwork() && file && meshDeviation;
 			return isKnown ? JSON.stringify([core.resets(), file, meshDeviation]) : "";
 		});
 		wanted.subscribe(function (mine) {

@@ -67,7 +67,7 @@ $(function () {
 		//~~ card
 
 		/** Only there can its own files be read, and they hold passwords. */
-		self.hasFiles = ko.pureComputed(() => core.maySet() && core.status().link === "network");
+		self.hasFiles = ko.pureComputed(() => core.maySet() && core.hasNetwork());
 		/** Opens their dialog, whose script comes when it is first wanted. */
 		self.showFiles = function () {
 			const url = BASEURL + "plugin/rrfmodel/static/on_demand/files.js";
