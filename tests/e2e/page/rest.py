@@ -52,7 +52,7 @@ AT_REST = {"seen": [], "isModelThere": True, "isReady": True, "isShown": True}
 
 def bring_to_rest(page):
     """Return once the page shows the machine, and nothing of what was done in it before."""
-    page.unroute_all()
+    page.unroute_all(behavior="ignoreErrors")
     if page.viewport_size != SIZE:
         page.set_viewport_size(SIZE)
     page.mouse.move(0, 0)

@@ -92,7 +92,7 @@ def test_what_was_pushed_before_a_state_and_comes_behind_it_is_not_lost(page, vi
         part(view, "speed-less").click()
         wait_text(part(view, "speed-factor"), "100 %", 20)
     finally:
-        page.unroute(STATE)
+        page.unroute_all(behavior="ignoreErrors")
 
 
 def test_temperatures_that_the_line_tells_are_news(page, view, server, board):
