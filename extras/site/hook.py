@@ -1,7 +1,7 @@
 """What MkDocs does for the site beyond docs/: the changelog, the pictures, links that leave docs/.
 
 The pages are written to be read where they lie, too. There a link to a file beside docs/ is a
-relative one; the site has the changelog and the pictures of its own, and the repository for the rest.
+relative one; the site has the changelog and the pictures itself, and the repository for the rest.
 """
 
 from __future__ import annotations

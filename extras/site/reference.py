@@ -1,7 +1,7 @@
 """``python -m extras.site.reference``: the pages of docs/reference that the code's tables make.
 
-What a person reads in a table of the code stands once, there; these pages are written from it, and
-a test holds them to it. Run it where OctoPrint is installed, as the plugin's sentences are read too.
+What stands in a table of the code stands once, there; these pages are written from it, and a test
+holds them to it. Run it where OctoPrint is installed, as the plugin's sentences are read too.
 """
 
 from __future__ import annotations
@@ -155,8 +155,8 @@ def _guard() -> list[str]:
     return [
         "# What pauses a print",
         "",
-        "RepRapFirmware pauses for a fault what it prints from its own card, and nothing else. So the"
-        " plugin pauses a print that OctoPrint streams, says why, and keeps it paused until the"
+        "RepRapFirmware pauses for a fault what it prints from its own card, and nothing else. So"
+        " the plugin pauses a print that OctoPrint streams, says why, and keeps it paused until the"
         " cause is over. Each cause is a [setting](settings.md#guard), `guard.<cause>`, on at"
         " first. A board on the network prints its own files, and pauses them itself.",
         "",
@@ -169,7 +169,8 @@ def _guard() -> list[str]:
                 for code, reason, may_go_on in faults
             ),
         ),
-        f"After `off` the position is lost, too (`{POSITION_LOST.code}`): {_sentence(POSITION_LOST.code)}",
+        f"After `off` the position is lost, too (`{POSITION_LOST.code}`):"
+        f" {_sentence(POSITION_LOST.code)}",
         "",
         "## A line of the file",
         "",
@@ -190,9 +191,9 @@ def _warnings() -> list[str]:
         "# Warnings",
         "",
         "What is wrong as long as it is: on every page, in the sidebar, and in"
-        " [`warnings` of the state](../api.md). A `fault` doesn't work, a `warning` may not work for"
-        " long, `advice` could work better. The command mends it, by a button of the page, or over"
-        " [HTTP](../commands.md).",
+        " [`warnings` of the state](../api.md). A `fault` doesn't work, a `warning` may not work"
+        " for long, `advice` could work better. The command mends it, by a button of the page, or"
+        " over [HTTP](../commands.md).",
         "",
         *_table(
             ("code", "level", "sentence", "command"),
@@ -219,9 +220,9 @@ def _object_model() -> list[str]:
     lines = [
         "# The object model",
         "",
-        "What the members of RepRapFirmware's model say, as [`meanings`](../api.md) tells it and the"
-        " page shows it. `[]` is any element. A *live* one changes all the time, and is asked for"
-        " again and again. Which members there are depends on firmware and machine.",
+        "What the members of RepRapFirmware's model say, as [`meanings`](../api.md) tells it and"
+        " the page shows it. `[]` is any element. A *live* one changes all the time, and is asked"
+        " for again and again. Which members there are depends on firmware and machine.",
         "",
     ]
     tops = [path for path in MEANINGS if "." not in path]
