@@ -21,6 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 CHANGELOG = ("CHANGELOG.md", "changelog.md")
 """Where it lies, and which page it is."""
 
+STYLE = Path(__file__).with_name("site.css")
+
 PICTURES = ("extras/screenshots/", "pictures/")
 
 LEAVES = re.compile(r"(?<=\]\()(?P<path>(?:\.\./)+[^)#\s]+)")
@@ -28,11 +30,12 @@ LEAVES = re.compile(r"(?<=\]\()(?P<path>(?:\.\./)+[^)#\s]+)")
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Return the files of the site with the changelog and the pictures among them."""
+    """Return the files of the site with the changelog, the pictures and the style among them."""
     from mkdocs.structure.files import File
 
     source, page = CHANGELOG
     files.append(File.generated(config, page, abs_src_path=str(ROOT / source)))
+    files.append(File.generated(config, "site.css", abs_src_path=str(STYLE)))
     folder, place = PICTURES
     for picture in sorted((ROOT / folder).glob("*.png")):
         files.append(File.generated(config, place + picture.name, abs_src_path=str(picture)))

@@ -11,7 +11,7 @@ from tests.support.places import ROOT
 
 from .. import helpers
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 CURL = re.compile(r"^ *(curl (?:.*\\\n)*.*)$", re.MULTILINE)
 """A command for the shell, with the lines that it goes on to; group 1 is the command."""
