@@ -27,7 +27,8 @@ FILES = (
 )
 """Before the path of a file of this repository, to read and to show."""
 
-MENTION = re.compile(r"\bdocs/(?P<path>[\w/-]+\.md)\b")
+MENTION = re.compile(r"\bdocs/(?P<path>(?:(?:guide|how|recipes|reference)/)?[\w-]+\.md)\b")
+"""A page as texts name it; those of others have folders of their own."""
 
 
 def name_of(page):
