@@ -14,7 +14,11 @@ from tests.support.places import ROOT
 
 MKDOCS = ROOT / ".venv" / "docs" / "bin" / "mkdocs"
 
-pytestmark = pytest.mark.skipif(not MKDOCS.exists(), reason="no MkDocs: make environments")
+pytestmark = [
+    pytest.mark.skipif(not MKDOCS.exists(), reason="no MkDocs: make environments"),
+    # it is built once
+    pytest.mark.xdist_group("docs_site"),
+]
 
 LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 """Elements for which a browser asks by itself, and where it asks."""
