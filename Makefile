@@ -18,7 +18,7 @@ READY := .venv/octoprint-1.11/.ready .venv/octoprint-2.0/.ready
 PLAIN := .venv/octoprint-1.11-plain/.ready .venv/octoprint-2.0-plain/.ready
 
 # what needs no OctoPrint runs once, in the first environment
-PURE := tests/rrf tests/simulator tests/test_layering.py
+PURE := tests/rrf tests/simulator tests/docs tests/test_layering.py
 
 # the tests mostly wait for servers, so that more of them than cores run side by side; what takes
 # long begins first, which tests/conftest.py sees to
@@ -30,7 +30,7 @@ export PIP_NO_INPUT := 1
 export PYTHONDONTWRITEBYTECODE :=
 
 .DELETE_ON_ERROR:
-.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench fuzz endurance endurance-network silence demo translations environments clean
+.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench fuzz endurance endurance-network silence demo docs reference translations environments clean
 
 help:
 	@echo "make test           lint and the tests in OctoPrint 1.11 and 2.0, side by side"
@@ -44,6 +44,7 @@ help:
 	@echo "make endurance-network  the same with a board on the network, in OctoPrint 2.0; MINUTES=10"
 	@echo "make demo           an OctoPrint with a simulated printer; DEMO_OCTOPRINT=1.11, DEMO_PORT=5000,"
 	@echo "                    DEMO_MACHINE=toolchanger, DEMO_FIRMWARE=3.6.1, DEMO_LINK=network (OctoPrint 2.0)"
+	@echo "make docs           the site of docs/ into build/site; make reference writes its pages of tables anew"
 	@echo "make translations   refresh messages.pot and the catalogues"
 	@echo "make clean          remove environments and what tools left behind"
 
@@ -87,7 +88,17 @@ $(CLIENTS)/.ready: requirements/network-clients.txt tests/clients/package.json
 	fi
 	@touch $@
 
-environments: $(READY) $(PLAIN) $(CLIENTS)/.ready
+# what builds the site of docs/
+DOCS := .venv/docs
+
+$(DOCS)/.ready: requirements/docs.txt
+	@echo "installing what builds the documentation into $(@D)"
+	@rm -rf $(@D)
+	@$(PYTHON) -m venv $(@D)
+	@$(@D)/bin/python -m pip install -qq --requirement $<
+	@touch $@
+
+environments: $(READY) $(PLAIN) $(CLIENTS)/.ready $(DOCS)/.ready
 	@:
 
 # Tests
@@ -153,6 +164,15 @@ endurance-network: .venv/octoprint-2.0/.ready
 
 demo: .venv/octoprint-$(DEMO_OCTOPRINT)/.ready
 	@exec .venv/octoprint-$(DEMO_OCTOPRINT)/bin/python -m extras.demo
+
+# Documentation. The theme warns of a MkDocs that isn't the one that is pinned.
+
+docs: $(DOCS)/.ready
+	@NO_MKDOCS_2_WARNING=1 $(DOCS)/bin/mkdocs build --strict
+	@echo "read it: build/site/index.html"
+
+reference: .venv/octoprint-2.0/.ready
+	@$(VENV_2.0)/bin/python -m extras.site.reference
 
 # Translations. Sources lie in translations/, OctoPrint reads the copy inside the package.
 
