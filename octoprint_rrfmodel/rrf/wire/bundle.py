@@ -6,7 +6,7 @@ import io
 import json
 import zipfile
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import Any
 
 MODEL, MACHINE = "model.json", "machine.json"
 """What a replay needs: the object model in the envelope of ``M409``, and what the board is."""
@@ -22,7 +22,7 @@ class NoBundle(ValueError):
     """What was to be a bundle is none; says why."""
 
 
-def packed(files: Mapping[str, Union[str, Any]]) -> bytes:
+def packed(files: Mapping[str, Any]) -> bytes:
     """Return an archive of files by name: texts as they are, other values as JSON.
 
     One that is too large is left out, and a text says so in its place.
