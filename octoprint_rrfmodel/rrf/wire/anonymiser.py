@@ -42,6 +42,14 @@ _BARE_VALUE = re.compile(
 
 _INDEX = re.compile(r"\[[^\]]*\]|[#^]")
 
+SECRETS = frozenset(("network.passwords", "network.hosts"))
+"""Settings of which nothing is told."""
+
+CHOSEN = frozenset(("simulator.machine", "simulator.firmware", "simulator.faults"))
+"""Settings that are words of the plugin's own."""
+
+_CHOICE = re.compile(r"[a-z0-9_.]{1,30}(?::\d{1,6}(?:\.\d{1,3})?)?", re.ASCII)
+
 VALUES = "warnings.values."
 """Below this are the values that belong into a warning's sentence."""
 
@@ -64,6 +72,28 @@ class Anonymiser:
     def members(self, value: Any) -> Any:
         """Return the plugin's state, or what ``M408``, ``M20`` and ``M36`` answer."""
         return self._value(value, "")
+
+    def settings(self, value: Any, path: str = "") -> Any:
+        """Return the plugin's settings; of what is secret how much there is."""
+        if path in SECRETS:
+            return len(value) if isinstance(value, Mapping) else 0
+        if isinstance(value, Mapping):
+            return {
+                name: self.settings(below, f"{path}.{name}" if path else name)
+                for name, below in value.items()
+                if MEMBER.fullmatch(name)
+            }
+        if isinstance(value, (list, tuple)):
+            return [self.settings(element, path) for element in value]
+        if isinstance(value, str) and not (path in CHOSEN and _CHOICE.fullmatch(value)):
+            return self._names.of("text", value)
+        return value
+
+    def codes(self, value: Any) -> Any:
+        """Return a setting of OctoPrint's that is a switch or a list of G-codes."""
+        if isinstance(value, (list, tuple)):
+            return [self.sentence(str(code)) for code in value]
+        return value if value is None or isinstance(value, (bool, int)) else "?"
 
     def reply(self, text: str) -> str:
         """Return the JSON of a reply; of one that can't be read its structure and numbers."""
