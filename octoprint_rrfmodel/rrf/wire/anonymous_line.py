@@ -49,28 +49,30 @@ class AnonymousLine:
 
     def __init__(self, names: Pseudonyms) -> None:
         self._names = names
-        self._long = re.compile("(?!)")
-        self._known = 0
+        self._known: list[str] = []
+        self._looked_at = 0
 
     def sentence(self, text: str) -> str:
         """Return a text in which only the firmware's own words, numbers and codes are left."""
         text = masked(text)
+        known = [each for each in self._several_words() if each in text]
+        if not known:
+            return self._words(text)
         pieces: list[str] = []
         at = 0
-        for found in self._several_words().finditer(text):
+        for found in re.finditer("|".join(map(re.escape, known)), text):
             pieces += [self._words(text[at : found.start()]), self._names.of("name", found[0])]
             at = found.end()
         return "".join([*pieces, self._words(text[at:])])
 
-    def _several_words(self) -> re.Pattern[str]:
-        """Return what finds the texts with blanks that have a name already."""
+    def _several_words(self) -> list[str]:
+        """Return the texts with blanks that have a name already, the longest first."""
         texts = self._names.several_words
-        if len(texts) != self._known:
-            self._known = len(texts)
-            longest_first = sorted(texts, key=len, reverse=True)
-            told = [re.escape(text) for text in longest_first if self._words(text) != text]
-            self._long = re.compile("|".join(told) or "(?!)")
-        return self._long
+        new, self._looked_at = texts[self._looked_at :], len(texts)
+        told = [text for text in new if self._words(text) != text]
+        if told:
+            self._known = sorted([*self._known, *told], key=len, reverse=True)
+        return self._known
 
     def _words(self, text: str) -> str:
         return _TOKEN.sub(self._token, text)

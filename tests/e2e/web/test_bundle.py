@@ -69,6 +69,11 @@ def test_downloaded_and_nothing_of_a_person_s_is_in_it(server):
     assert server.client(OPERATOR).get(BUNDLE).status_code == 403
 
 
+def test_the_settings_lead_to_it(server):
+    page = server.get("/").text
+    assert re.search(r'<a [^>]*href="plugin/rrfmodel/bundle" download', page)
+
+
 def test_the_replayed_machine_is_known_as_the_recorded_one(server, server_factory, ports_dir):
     helpers.wait_ready(server)
     server.wait_for(lambda: ("heater_fault_1", "fault") in warnings_of(server), 30, "the fault")
