@@ -14,6 +14,7 @@ from .control.rate import Rate
 from .guard.guards import make_guards
 from .guard.notifications import Notifications
 from .host.notes import NOTES
+from .host.own_log import OwnLog
 from .host.request_checks import RequestChecks
 from .host.setup import Setup
 from .host.version import IS_2
@@ -22,6 +23,7 @@ from .integrations.helpers import Helpers
 from .integrations.octoprint_events import MachineEvents
 from .integrations.other_plugins import OtherPlugins
 from .integrations.plugin_subscribers import PluginSubscribers
+from .link.exchanges import Exchanges
 from .link.followed import make_follower
 from .link.heater_ages import HeaterAges
 from .link.known import Known
@@ -53,6 +55,7 @@ from .web.network_api import NetworkRequests
 from .web.pages import Pages
 from .web.prints import Prints
 from .web.push import ModelPush
+from .web.support_bundle import Heard, SupportBundle
 
 
 class Assembly:
@@ -158,27 +161,20 @@ class Assembly:
         self._network_requests = [NetworkRequests(each.memory) for each in self.networks]
         more = {name: run for each in self._network_requests for name, run in each.commands()}
         self.commands = PluginCommands(self._commands, self.setup, more=more)
+        self._exchanges = Exchanges(self._poller, self._clock)
+        heard = Heard(self._exchanges, self.moonraker.store, OwnLog())
+        table = self.setup.settings.table
+        about = {"link": self._links, "octoprint_settings": table, "heard": heard}
+        self.bundle = SupportBundle(host, self.status, model, **about)
 
     def _make_integrations(self):
         host, model = self._host, self._known.model
         self._events = MachineEvents(host.fire, self._known, self._boxes)
-        self.other_plugins = OtherPlugins(
-            host,
-            self._links,
-            model,
-            status=self.status,
-            command=self._commands.command,
-            clock=self._clock,
-        )
+        does = {"status": self.status, "command": self._commands.command}
+        self.other_plugins = OtherPlugins(host, self._links, model, **does, clock=self._clock)
         self._audience.publishes = self.other_plugins.publishes
-        self.helpers = Helpers(
-            model,
-            self._plugin_subscribers.subscribe,
-            self.questions,
-            command=self._commands.command,
-            status=self.status,
-            objects=self.moonraker.objects,
-        )
+        subscribe, objects = self._plugin_subscribers.subscribe, self.moonraker.objects
+        self.helpers = Helpers(model, subscribe, self.questions, **does, objects=objects)
 
     def _make_hooks(self):
         hooks = serial_hooks(
@@ -242,10 +238,10 @@ class Assembly:
             "disconnected": self._listeners.forgotten,
             "line": self._listeners.line,
             "heard": self._listeners.heard,
-            "reply": poller.reply,
+            "reply": self._exchanges.reply,
             "report": self._reports.take,
-            "refused": poller.refused,
-            "poll_sent": poller.poll_sent,
+            "refused": self._exchanges.refused,
+            "poll_sent": self._exchanges.poll_sent,
             "poll_acknowledged": poller.poll_acknowledged,
             "look": poller.look,
             "was_reset": Resets(self._follower, poller, self._listeners).note,
@@ -278,7 +274,7 @@ class Assembly:
             part.stop()
 
     def _threads(self):
-        own = self._pages, self._sender, self.prints, self.worker, self._file_check
+        own = self.bundle, self._pages, self._sender, self.prints, self.worker, self._file_check
         return (*own, *self.networks, self.other_plugins, self._plugin_subscribers)
 
     def on_event(self, event, payload):

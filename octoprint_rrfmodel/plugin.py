@@ -10,6 +10,7 @@ from .host.host import Host
 from .host.notes import DISABLED_PLUGIN
 from .host.plugin_settings import DEFAULTS, VERSION
 from .web.assets import assets_of
+from .web.bundle_api import BundleHandler
 from .web.endpoints import Endpoints
 from .web.files_api import FolderHandler, Folders
 from .web.height_map_api import HeightMapHandler
@@ -174,6 +175,7 @@ class RrfModelPlugin(
         return [
             (r"/model/live", LiveModelHandler, live),
             (r"/heightmap", HeightMapHandler, live),
+            (r"/bundle", BundleHandler, {**live, "archive": self.parts.bundle.archive}),
             (r"/machine_files", MachineFilesHandler, files),
             (r"/machine_file", MachineFileHandler, files),
             (r"/files", FolderHandler, {**live, "folders": folders}),

@@ -2,6 +2,7 @@
 
 import collections
 import concurrent.futures
+import re
 import threading
 
 from ..rrf.follow.asked import answer_to
@@ -17,6 +18,9 @@ from ..rrf.wire.request import (
 
 ABOUT_THE_CARD = (ListRequest, FileRequest, PieceRequest, JobFileRequest)
 """Requests that the board refuses with ``Error: M20: ...`` and the like."""
+
+NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
+"""How firmware of various age says that it hasn't got a command."""
 
 MOST_QUERIES = 4
 """Questions to the printer that may wait for the one poll slot."""
@@ -51,6 +55,10 @@ class Poll:
             return True
         self.answered_others = True
         return False
+
+    def is_refused_by(self, line):
+        """Return whether a line says that the firmware hasn't got the command."""
+        return NOT_KNOWN.search(line.lower()) is not None and self.request.line.split()[0] in line
 
     def is_over(self):
         """Return whether the next poll may leave."""

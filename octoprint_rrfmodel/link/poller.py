@@ -4,7 +4,6 @@ All of this runs on the worker thread, which calls ``tick`` and hands in what th
 """
 
 import logging
-import re
 
 from ..rrf.follow.pace import Pace
 from ..rrf.wire.line import NO_BUFFERS
@@ -18,9 +17,6 @@ ANSWER_SECONDS = 10.0
 
 QUEUED_SECONDS = 30.0
 """Time after which a poll that never left OctoPrint's queue is taken for lost."""
-
-NOT_KNOWN = re.compile(r"not supported|unsupported|unknown|bad command")
-"""How firmware of various age says that it hasn't got a command."""
 
 ALARMS = frozenset(("fault", "reset"))
 """What the firmware tells by itself that is a witness to what the model says next."""
@@ -102,6 +98,10 @@ class Poller:
             return 0.25
         return max(0.01, self._next_at - now)
 
+    def asked(self):
+        """Return the line of the poll that is under way, ``None`` where none is."""
+        return self._poll and self._poll.request.line
+
     def blocked(self):
         """Return why no poll goes out: the line's reason, or ``buffers``."""
         if not self._running:
@@ -158,9 +158,7 @@ class Poller:
         """Note a line that says that a command isn't known, if it is about ours."""
         poll = self._poll
         is_model = poll is not None and poll.query is None and not poll.is_card
-        if not is_model or not NOT_KNOWN.search(line.lower()):
-            return
-        if poll.request.line.split()[0] in line:
+        if is_model and poll.is_refused_by(line):
             self._count("replies")
             self.follower.not_supported()
             self._end(failed=False)

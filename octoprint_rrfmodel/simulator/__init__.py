@@ -24,5 +24,6 @@ The floors, from the bottom to the top; a module imports from its own floor and 
 * ``board``: bytes in, bytes out, and time in between.
 * ``port``, ``pty``, ``network``: faces of a board; a new one is given a ``Board``. On the network a
   request is a row of its group, and groups register in ``network.http_board``.
+* ``replay``: the machine of a support bundle, as a ``Board``.
 * ``__main__``: the command line.
 """

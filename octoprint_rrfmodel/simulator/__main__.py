@@ -8,7 +8,7 @@ import sys
 import threading
 from typing import Callable, NamedTuple
 
-from . import captured
+from . import captured, replay
 from .board import Board
 from .faults import FAULTS, UnknownFault, parse_fault
 from .firmware import VERSIONS, UnknownFirmware, firmware_called
@@ -47,6 +47,7 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--password", metavar="P", help="with --http: the board's password")
     what.add_argument("--machine", metavar="NAME", help="which machine to be (cartesian)")
     what.add_argument("--model", metavar="FILE", help="serve the object model in this file")
+    what.add_argument("--replay", metavar="BUNDLE", help="be the machine of this support bundle")
     result.add_argument("--firmware", metavar="VERSION", help=f"({DEFAULT_FIRMWARE})")
     result.add_argument(
         "--speed", metavar="N", type=float, default=1.0, help="simulated seconds per second (1)"
@@ -61,6 +62,12 @@ def parser() -> argparse.ArgumentParser:
 def board_of(options: argparse.Namespace) -> Board:
     """Return the board that the options describe."""
     firmware = options.firmware
+    for fault in options.fault:
+        parse_fault(fault)
+    if options.replay is not None:
+        recorded = replay.load(options.replay)
+        options.sbc = options.sbc or (recorded.is_behind_computer and options.http is not None)
+        return recorded.board(firmware, faults=options.fault, speed=options.speed)
     model = None
     if options.model is not None:
         model = captured.load(options.model)
@@ -69,8 +76,6 @@ def board_of(options: argparse.Namespace) -> Board:
     firmware_called(firmware)
     machine = options.machine or "cartesian"
     machine_called(machine)
-    for fault in options.fault:
-        parse_fault(fault)
     return Board(machine, firmware, model=model, faults=options.fault, speed=options.speed)
 
 

@@ -46,10 +46,15 @@ def model_in(text: str) -> dict[str, Any]:
             value = json.loads(first)
         except ValueError:
             raise UnreadableModel(f"no JSON: {problem}") from None
-    value = _bare(value)
-    if not isinstance(value, Mapping) or not isinstance(value.get("state"), Mapping):
+    return model_of(value)
+
+
+def model_of(value: Any) -> dict[str, Any]:
+    """Return the model that a JSON value is, plain or in an envelope."""
+    model = _bare(value)
+    if not isinstance(model, Mapping) or not isinstance(model.get("state"), Mapping):
         raise UnreadableModel("no object model: there is no member 'state'")
-    return dict(value)
+    return dict(model)
 
 
 def load(path: str | os.PathLike[str]) -> dict[str, Any]:

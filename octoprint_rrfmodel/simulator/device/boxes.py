@@ -67,6 +67,11 @@ class MessageBoxes:
         self._show()
         return self._seq
 
+    def adopt(self, box: dict[str, Any]) -> None:
+        """Take a box for open that is in the model from the beginning."""
+        self._seq = box["seq"]
+        self._open = [box]
+
     def is_open(self, seq: int) -> bool:
         return any(box["seq"] == seq for box in self._open)
 

@@ -37,6 +37,8 @@ class Status:
         self._motion = motion
         self._job = job
         self._boxes = boxes
+        self.recorded: str | None = None
+        """What a recorded machine was doing; shown until the board does something of its own."""
 
     def shown(self) -> str:
         """Return ``state.status``; the order of precedence is RRF 3.5 RepRap.cpp:2391."""
@@ -44,6 +46,15 @@ class Status:
             return "halted"
         if not self._power.is_on:
             return "off"
+        doing = self._doing()
+        if doing is not None:
+            self.recorded = None
+            return doing
+        if self.recorded is not None:
+            return self.recorded
+        return "busy" if self._boxes.is_blocking else "idle"
+
+    def _doing(self) -> str | None:
         status = _JOB_STATUS.get(self._job.state or "")
         if status == "processing" and self._job.is_simulation:
             return "simulating"
@@ -51,6 +62,4 @@ class Status:
             return status
         if self._activity.is_changing_tool:
             return "changingTool"
-        if self._activity.is_in_macro or self._motion.is_moving or self._boxes.is_blocking:
-            return "busy"
-        return "idle"
+        return "busy" if self._activity.is_in_macro or self._motion.is_moving else None

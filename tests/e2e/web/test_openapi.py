@@ -129,6 +129,7 @@ def test_every_route_is_described(server):
         "/plugin/rrfmodel/files",
         "/plugin/rrfmodel/thumbnail",
         "/plugin/rrfmodel/heightmap",
+        "/plugin/rrfmodel/bundle",
         "/plugin/rrfmodel/machine_files",
         "/plugin/rrfmodel/machine_file",
     }

@@ -35,6 +35,7 @@ ENDPOINTS = [
     ("GET", f"{BASE}/machine_files?path=0:/sys", None, SETTINGS, 409),
     ("GET", f"{BASE}/machine_file?path=0:/sys/config.g", None, SETTINGS, 409),
     ("PUT", f"{BASE}/machine_file", {"path": "0:/sys/a.g", "text": ""}, SETTINGS, 409),
+    ("GET", f"{BASE}/bundle", None, SETTINGS, 200),
     ("GET", f"{BASE}/setup", None, SETTINGS, 200),
     ("GET", f"{BASE}/metrics", None, READ, 200),
     ("GET", f"{BASE}/openapi.json", None, READ, 200),
