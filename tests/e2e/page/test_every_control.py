@@ -17,6 +17,7 @@ from . import (
     SECONDS,
     TOLD,
     board_value,
+    both_hosts,
     home,
     own_errors,
     part,
@@ -428,6 +429,7 @@ def view(page, server, board):
     return show_view(page, "machine")
 
 
+@both_hosts
 def test_machine(page, view, server, board, page_errors):
     expect(part(view, "macro")).to_have_count(3, timeout=MILLISECONDS)
     # nothing has to be heated for it
@@ -438,6 +440,7 @@ def test_machine(page, view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_sections_of_machine(page, view, server, board, page_errors):
     parts = page.locator("#rrfmodel_machine_parts")
     heads = parts.locator("[data-test^=fold-]:visible")
@@ -451,12 +454,14 @@ def test_sections_of_machine(page, view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_console(page, server, board, page_errors):
     region = show_view(page, "console")
     assert use_all(page, region, server, board, CONSOLE) == set(CONSOLE)
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_job_without_a_print(page, view, server, board, page_errors):
     region = show_view(page, "job")
     usable = use_all(page, region, server, board, CARD)
@@ -465,6 +470,7 @@ def test_job_without_a_print(page, view, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_job_with_a_print(page, view, server, board, page_errors):
     home(server, board)
     board.board.speed = 2

@@ -13,7 +13,17 @@ from playwright.sync_api import expect
 from tests.support import waiting
 
 from .. import helpers
-from . import CONFIRM, SECONDS, heat_row, own_errors, part, show_view, wait_board, wait_text
+from . import (
+    CONFIRM,
+    SECONDS,
+    both_hosts,
+    heat_row,
+    own_errors,
+    part,
+    show_view,
+    wait_board,
+    wait_text,
+)
 from .test_job import end_job
 
 BOARD = {"machine": "cartesian", "speed": 10}
@@ -216,6 +226,7 @@ def test_none_is_worse_than_in_dwc(job):
     assert job.steps <= job.dwc
 
 
+@both_hosts
 def test_beside_an_idle_machine(page, server, board, page_errors):
     board.board.execute("T-1", channel="http")
     helpers.wait_value(server, "state.currentTool", -1, SECONDS)
@@ -233,6 +244,7 @@ def test_beside_an_idle_machine(page, server, board, page_errors):
     assert own_errors(page_errors) == []
 
 
+@both_hosts
 def test_beside_a_print(page, server, board, page_errors):
     show_view(page, "machine")
     board.board.execute(f'M32 "{FILE}"', channel="http")

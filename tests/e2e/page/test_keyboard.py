@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 
-from . import SECONDS, board_value, own_errors, part, show_view, wait_board
+from . import SECONDS, board_value, both_hosts, own_errors, part, show_view, wait_board
 from .test_job import end_job
 
 BOARD = {"machine": "cartesian", "speed": 10}
@@ -34,6 +34,7 @@ def walk_to(locator, key="Tab"):
     pytest.fail(f"{locator} isn't reached by {key}")
 
 
+@both_hosts
 def test_homes_heats_answers_and_pauses(page, server, board, page_errors):
     view = show_view(page, "machine")
     board.board.execute("M84", channel="http")
