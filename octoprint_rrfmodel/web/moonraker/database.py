@@ -45,6 +45,7 @@ class Database:
         self._folder = folder
         self._lock = threading.Lock()
         self._spaces = None
+        self._sizes = {}
 
     def names(self):
         """Return the names of all namespaces."""
@@ -87,15 +88,17 @@ class Database:
         return spaces[namespace]
 
     def _keep(self, namespace, space):
-        """Write a namespace, or forget an empty one; then it is so in memory too."""
+        """Write a namespace, or remove an empty one; then it is so in memory too."""
         others = {name: each for name, each in self._spaces.items() if name != namespace}
-        if _size(space) + sum(map(_size, others.values())) > LARGEST:
+        size = _size(space)
+        if size + sum(self._sizes[name] for name in others) > LARGEST:
             raise RequestRefused(400, gettext("The database is full, 5 MB are kept."))
         file = KeptJson(self._place, file_name(namespace))
         is_kept = file.write(space) if space else file.remove()
         if not is_kept:
             raise RequestRefused(500, gettext("The plugin could not keep that, see its log."))
         self._spaces = {**others, namespace: space} if space else others
+        self._sizes[namespace] = size
 
     def _read(self):
         if self._spaces is None:
@@ -105,6 +108,7 @@ class Database:
                 if isinstance(space, dict):
                     found[unquote(path.stem)] = space
             self._spaces = found
+            self._sizes = {name: _size(space) for name, space in found.items()}
         return self._spaces
 
     def _place(self):

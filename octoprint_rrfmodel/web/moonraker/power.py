@@ -7,6 +7,7 @@ from octoprint.access.permissions import Permissions
 
 from ...host.answers import RequestRefused
 from ...integrations import psu
+from ...rrf.views.machine import mapping
 
 ACTIONS = ("on", "off", "toggle")
 
@@ -86,18 +87,22 @@ class PowerDevices:
 
     def _machine(self):
         """Return the supply that M80 and M81 switch, ``None`` where the model knows of none."""
-        is_on = (self._model().get("state") or {}).get("atxPower")
-        return Device(is_on, "klipper_device", self._switch_machine) if is_on in ON_OFF else None
+        is_on = self._is_machine_on()
+        return None if is_on is None else Device(is_on, "klipper_device", self._switch_machine)
 
     def _switch_machine(self, on):
         self._command("power", on=on)
-        return (self._model().get("state") or {}).get("atxPower") is True
+        return self._is_machine_on()
+
+    def _is_machine_on(self):
+        is_on = mapping(self._model().get("state")).get("atxPower")
+        return is_on if isinstance(is_on, bool) else None
 
     def _psu_control(self):
         helpers = psu.psu_control(self._plugins())
         if not helpers:
             return None
-        permission = psu.PERMISSION if hasattr(Permissions, psu.PERMISSION) else ""
+        permission = psu.PERMISSION if Permissions.find(psu.PERMISSION) is not None else ""
         return Device(
             helpers["get_psu_state"]() is True,
             "octoprint",
@@ -115,8 +120,6 @@ class PowerDevices:
 MACHINE = "machine"
 PSU_CONTROL = "PSUControl"
 """Names of the devices."""
-
-ON_OFF = (True, False)
 
 
 def _word(is_on):

@@ -43,12 +43,13 @@ def server_methods(webcams, temperature_store):
         return webcams() if call.caller.may(WEBCAM) else []
 
     def get_webcam(call):
-        name, uid = call.text("name", ""), call.text("uid", "")
-        found = [each for each in seen(call) if uid == each["uid"] or (not uid and name)]
-        found = [each for each in found if uid or each["name"] == name]
-        if not found:
-            raise RequestRefused(404, gettext("There is no such webcam."))
-        return {"webcam": found[0]}
+        # the uid counts; some clients know only names
+        uid = call.text("uid", "")
+        what, wanted = ("uid", uid) if uid else ("name", call.text("name", ""))
+        for found in seen(call):
+            if found[what] == wanted:
+                return {"webcam": found}
+        raise RequestRefused(404, gettext("There is no such webcam."))
 
     return (
         Method("server.config", lambda call: CONFIGURATION),
