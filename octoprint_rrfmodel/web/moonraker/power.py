@@ -39,7 +39,8 @@ class PowerDevices:
         self._command = command
         self._plugins = plugins
         self._print_state = print_state
-        self._told = None
+        self._shown = set()
+        """What clients may take the machine's supply for."""
 
     def listed(self):
         """Return all devices in Moonraker's form."""
@@ -70,10 +71,12 @@ class PowerDevices:
     def news(self):
         """Return notifications about the machine's supply, which its model tells; never waits."""
         device = self._machine()
-        last, self._told = self._told, None if device is None else device.is_on
-        if device is None or last in (None, self._told):
+        if device is None:
             return ()
-        return (("notify_power_changed", [_listed(MACHINE, device)]),)
+        # others may be shown it meanwhile
+        shown, self._shown = self._shown, {device.is_on}
+        is_news = shown - {device.is_on}
+        return (("notify_power_changed", [_listed(MACHINE, device)]),) if is_news else ()
 
     def _device(self, name):
         device = self._devices().get(name)
@@ -82,7 +85,10 @@ class PowerDevices:
         return device
 
     def _devices(self):
-        found = {MACHINE: self._machine(), PSU_CONTROL: self._psu_control()}
+        machine = self._machine()
+        if machine is not None:
+            self._shown.add(machine.is_on)
+        found = {MACHINE: machine, PSU_CONTROL: self._psu_control()}
         return {name: device for name, device in found.items() if device is not None}
 
     def _machine(self):
