@@ -50,7 +50,7 @@ from .web.commands_api import PluginCommands
 from .web.console_api import Console
 from .web.history_api import MachineHistory
 from .web.model_api import ModelApi
-from .web.moonraker.moonraker import Moonraker
+from .web.moonraker.moonraker import Moonraker, Parts
 from .web.network_api import NetworkRequests
 from .web.pages import Pages
 from .web.prints import Prints
@@ -62,8 +62,7 @@ class Assembly:
     """Makes the parts, floor by floor; ``host`` is OctoPrint (``host.host.Host``)."""
 
     def __init__(self, host):
-        self._host = host
-        self._clock = time.monotonic
+        self._host, self._clock = host, time.monotonic
         self._make_ground()
         self._make_guard()
         self._make_card_and_poller()
@@ -144,7 +143,8 @@ class Assembly:
         told.update(heater_ages=self._heater_ages, simulated_file=self._simulation, **prints.told)
         told["beside"] = self.beside.is_found
         self.status = PluginStatus(host.version, self._links, self._poller, known=known, **told)
-        self.moonraker = Moonraker(host, self._follower, self._links, rate=self._rate, **notes)
+        parts = Parts(self._rate, self._commands.command, lambda time: self.history.samples(time))
+        self.moonraker = Moonraker(host, self._follower, self._links, parts=parts, **notes)
         subscribers = self._plugin_subscribers = PluginSubscribers(host.plugins, model)
         self._audience = Audience(self._interest, self.moonraker.sockets.count, subscribers.paths)
         self.api = ModelApi(model, self.status, self._links, audience=self._audience)

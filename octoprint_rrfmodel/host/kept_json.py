@@ -28,7 +28,10 @@ class KeptJson:
             return None
 
     def write(self, value):
-        """Keep a value instead of the one before; that stays until this one is there whole."""
+        """Return whether a value is kept, instead of the one before.
+
+        That stays until this one is there whole.
+        """
         try:
             file = self._file()
             new = file.with_suffix(".new")
@@ -40,6 +43,17 @@ class KeptJson:
             new.replace(file)
         except OSError as error:
             self._logger.warning("Could not keep %s: %s", self._name, error)
+            return False
+        return True
+
+    def remove(self):
+        """Return whether nothing is kept any more."""
+        try:
+            self._file().unlink(missing_ok=True)
+        except OSError as error:
+            self._logger.warning("Could not remove %s: %s", self._name, error)
+            return False
+        return True
 
     def _file(self):
         return Path(self._folder()) / self._name

@@ -4,6 +4,13 @@ METHODS = ("turn_psu_on", "turn_psu_off", "get_psu_state")
 """What PSUControl calls on what has registered (its extra/psucontrol_subpluginexample.py)."""
 
 
+HELPERS = ("turn_psu_on", "turn_psu_off", "get_psu_state")
+"""What PSUControl offers to others; the state is the one that it knows, nothing is asked for it."""
+
+PERMISSION = "PLUGIN_PSUCONTROL_CONTROL"
+"""PSUControl's own permission to switch."""
+
+
 class PowerSupply:
     """Switches the supply and knows its state; returns at once, whoever calls.
 
@@ -30,6 +37,12 @@ class PowerSupply:
         It doesn't without a port for the supply (M80 C), and while no machine is connected.
         """
         return (self._model().get("state") or {}).get("atxPower") is True
+
+
+def psu_control(plugin_manager):
+    """Return PSUControl's helpers by name, empty where that plugin isn't there."""
+    helpers = plugin_manager.get_helpers("psucontrol", *METHODS) or {}
+    return helpers if helpers.keys() >= set(METHODS) else {}
 
 
 def register(plugin_manager, plugin, supply):

@@ -36,6 +36,15 @@ class Caller:
         self._is_out = False
 
     @property
+    def name(self):
+        """The user's name."""
+        return self._user.get_id()
+
+    def lasting(self):
+        """Return who outlasts a request: this one does."""
+        return self
+
+    @property
     def is_of_session(self):
         """Whether a browser's session was shown, which a page of another site can make it do."""
         return self._find_by_key is None
@@ -78,21 +87,50 @@ def caller_of(app, request, find_user):
     Flask application.
     """
     environ = WsgiInputContainer.environ(request)
+    with app.request_context(environ):
+        key = get_api_key(flask.request)
+        if key:
+            return _caller_of_key(app, environ, key, find_user)
+        app.login_manager._load_user()
+        return _caller_of_session(find_user)
 
+
+def caller_of_key(app, request, key, find_user):
+    """Return whose key this is that comes by a Tornado request's connection, or ``None``."""
+    return _caller_of_key(app, WsgiInputContainer.environ(request), key, find_user)
+
+
+def caller_of_flask(find_user):
+    """Return who sends the request that Flask answers, for longer than it; ``None`` for nobody."""
+    key = get_api_key(flask.request)
+    if key:
+        app = flask.current_app._get_current_object()
+        # of the request only where it comes from is needed, and nothing that is closed with it
+        environ = {
+            name: value for name, value in flask.request.environ.items() if isinstance(value, str)
+        }
+        environ["REQUEST_METHOD"] = "GET"
+        found = _caller_of_key(app, environ, key, find_user)
+        if found is not None:
+            return found
+    return _caller_of_session(find_user)
+
+
+def _caller_of_key(app, environ, key, find_user):
     def find_by_key():
         # OctoPrint notes in the session how somebody came in
         with app.request_context(environ):
-            return user_of_key(get_api_key(flask.request), flask.request.remote_addr)
+            return user_of_key(key, flask.request.remote_addr)
 
-    with app.request_context(environ):
-        if get_api_key(flask.request):
-            user = find_by_key()
-            return None if user is None else Caller(user, find_by_key, find_user)
-        app.login_manager._load_user()
-        user = flask_login.current_user
-        if user is None or user.is_anonymous:
-            return None
-        return Caller(user._get_current_object(), None, find_user)
+    user = find_by_key()
+    return None if user is None else Caller(user, find_by_key, find_user)
+
+
+def _caller_of_session(find_user):
+    user = flask_login.current_user
+    if user is None or user.is_anonymous:
+        return None
+    return Caller(user._get_current_object(), None, find_user)
 
 
 def user_of_key(key, address):

@@ -82,6 +82,11 @@ class MachineHistory:
 
     ##~~ any thread
 
+    def samples(self, since):
+        """Return the samples that are later than a time of day."""
+        with self._lock:
+            return self._history.since(since)
+
     def get_history(self, arguments):
         """Return what is kept, or only what has come since a time."""
         if not may_read():

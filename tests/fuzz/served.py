@@ -38,8 +38,10 @@ OWN_ROUTES = [
         "/console",
         "/files",
         "/thumbnail",
-        "/nothing",
     ),
+    *("/server/database/item", "/server/database/list", "/server/webcams/item"),
+    *("/machine/device_power/device", "/machine/proc_stats", "/server/temperature_store"),
+    *("/access/info", "/access/user", "/access/oneshot_token", "/nothing"),
 ]
 
 ROUTES = st.sampled_from(["/plugin/rrfmodel" + route for route in OWN_ROUTES]) | st.just(
@@ -50,6 +52,7 @@ PATHS = st.sampled_from(["0:/gcodes", "0:/macros/../sys", "a.g", '"', "0:/\n M11
 
 PARAMETERS = st.dictionaries(
     st.sampled_from(["key", "flags", "path", "count", "since", "toolhead", "extruder", "script"])
+    | st.sampled_from(["namespace", "value", "value:json", "device", "uid", "token"])
     | st.text(max_size=4),
     KEYS | FLAGS | PATHS | st.integers().map(str) | st.text(max_size=12),
     max_size=4,
@@ -60,14 +63,21 @@ COMMANDS = st.fixed_dictionaries(
     optional={"axes": ANY_JSON, "path": ANY_JSON, "on": ANY_JSON, "key": ANY_JSON},
 )
 
+ITEMS = st.fixed_dictionaries(
+    {"namespace": st.sampled_from(["a", "../a"]) | ANY_JSON, "key": KEYS | ANY_JSON},
+    optional={"value": ANY_JSON},
+)
+
 BODIES = st.one_of(
     st.none(),
-    (COMMANDS | st.fixed_dictionaries({"objects": WANTED | ANY_JSON}) | ANY_JSON).map(json.dumps),
+    (COMMANDS | ITEMS | st.fixed_dictionaries({"objects": WANTED | ANY_JSON}) | ANY_JSON).map(
+        json.dumps
+    ),
     st.text(max_size=30),
     st.just("[" * 3000),
 )
 
-REQUESTS = st.tuples(st.sampled_from(["GET", "POST", "PUT"]), ROUTES, PARAMETERS, BODIES)
+REQUESTS = st.tuples(st.sampled_from(["GET", "POST", "PUT", "DELETE"]), ROUTES, PARAMETERS, BODIES)
 
 REFUSED = st.builds(
     lambda method, script: json.dumps(

@@ -9,6 +9,7 @@ import pytest
 
 pytest.importorskip("octoprint")
 
+import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from any side
 from tornado.ioloop import IOLoop
 
 from octoprint_rrfmodel.web.moonraker.methods import Methods
@@ -65,6 +66,7 @@ class Bench:
             Subscribers(lambda: None, loop, run),
             find_user=None,
             run=run,
+            redeem=None,
         )
 
     def query(self, wanted):

@@ -3,6 +3,7 @@
     Kept.observe(model, host, now), Kept.heard(line)     after each reply, each line of text
     World(model, host, kept.snapshot, eventtime)         one moment
     names, status, difference                            what a client gets of it
+    temperature_store                                    the last hour, for charts
 
 Objects and fields are as in Klipper's status reference; what they come from is in
 ``docs/klipper.md``.
@@ -11,10 +12,12 @@ Objects and fields are as in Klipper's status reference; what they come from is 
 from .info import printer_info, server_info
 from .kept import Kept
 from .query import OBJECTS, difference, names, status, wanted_of
+from .temperature_store import STORE_SECONDS, temperature_store
 from .world import Accumulated, Host, HostJob, World
 
 __all__ = [
     "OBJECTS",
+    "STORE_SECONDS",
     "Accumulated",
     "Host",
     "HostJob",
@@ -25,5 +28,6 @@ __all__ = [
     "printer_info",
     "server_info",
     "status",
+    "temperature_store",
     "wanted_of",
 ]

@@ -17,13 +17,17 @@ from ...host.answers import RequestRefused
 
 VERBS = ("get", "post", "delete")
 
+EVERYBODY = ""
+"""The permission of what may be called by anybody, without one."""
+
 
 class Call:
     """One call of a method: what it was given, and by whom.
 
     ``caller`` says what its user may do: ``may_read()``, ``may_control()``, ``may(permission)`` by
-    the name of one of OctoPrint's. ``socket`` is the one that it came by, ``None`` over HTTP,
-    where all values are text. Getters raise ``RequestRefused`` for what is of the wrong kind.
+    the name of one of OctoPrint's; ``name`` is the user's, ``lasting()`` is who outlasts the call.
+    ``socket`` is the one that it came by, ``None`` over HTTP, where all values are text. Getters
+    raise ``RequestRefused`` for what is of the wrong kind.
     """
 
     def __init__(self, params: dict[str, Any], caller: Any, socket: Any = None) -> None:
@@ -73,7 +77,7 @@ class Method(NamedTuple):
     run: Callable[[Call], Any]
     """Returns the result, which is JSON; raises ``RequestRefused`` with a sentence."""
     permission: str = "PLUGIN_RRFMODEL_READ"
-    """OctoPrint's name of what the user needs."""
+    """OctoPrint's name of what the user needs, or ``EVERYBODY``."""
     verbs: tuple[str, ...] = ()
     """Of HTTP, where the name says none and it isn't only GET."""
 
@@ -114,7 +118,7 @@ class Methods:
 
 def run(method: Method, call: Call) -> Any:
     """Return a method's result; raises ``RequestRefused``, with 403 for who may not call it."""
-    if not call.caller.may(method.permission):
+    if method.permission and not call.caller.may(method.permission):
         if method.permission == "PLUGIN_RRFMODEL_READ":
             raise RequestRefused(403, gettext("You may not read the machine's model."))
         raise RequestRefused(403, gettext("You may not do that. Ask an administrator."))

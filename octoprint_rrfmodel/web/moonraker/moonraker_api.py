@@ -3,15 +3,20 @@
 import json
 
 import flask
+import flask_login
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
 
 from ...host.answers import RequestRefused, answer
 from ...host.request_json import json_of
+from ..access import caller_of_flask
 from .methods import Call, run
 
-KEY_ARGUMENT = "apikey"
-"""OctoPrint's own argument, which no method is given."""
+TOKEN_ARGUMENT = "token"
+"""The argument that stands for a user once."""
+
+NO_PARAMETERS = frozenset(("apikey", TOKEN_ARGUMENT))
+"""Arguments that no method is given; the first is OctoPrint's own."""
 
 OBJECTS = "printer/objects/query"
 """The path whose arguments are names of objects, each with its fields or none for all of them."""
@@ -27,7 +32,19 @@ HINTS = {
 
 
 class RequestCaller:
-    """The user of the request that Flask answers."""
+    """The user of the request that Flask answers; ``find_user(name)`` is the user manager's."""
+
+    def __init__(self, find_user):
+        self._find_user = find_user
+
+    @property
+    def name(self):
+        """The user's name, ``None`` for a guest."""
+        return flask_login.current_user.get_id()
+
+    def lasting(self):
+        """Return the user for longer than the request, ``None`` for a guest."""
+        return caller_of_flask(self._find_user)
 
     def may(self, permission):
         """Return whether the user has one of OctoPrint's permissions, by its name."""
@@ -43,10 +60,15 @@ class RequestCaller:
 
 
 class MoonrakerApi:
-    """Answers requests in Moonraker's forms by the table of its methods."""
+    """Answers requests in Moonraker's forms by the table of its methods.
 
-    def __init__(self, methods):
+    ``redeem(token)`` gives whom a token stands for, ``find_user(name)`` is the user manager's.
+    """
+
+    def __init__(self, methods, redeem, find_user):
         self._methods = methods
+        self._redeem = redeem
+        self._find_user = find_user
 
     def respond(self, path):
         """Return the answer to the request that Flask has, at a path below the prefix."""
@@ -55,9 +77,18 @@ class MoonrakerApi:
         try:
             if method is None:
                 return self._unknown(path)
-            return answer({"result": run(method, Call(_params(path), RequestCaller()))})
+            return answer({"result": run(method, Call(_params(path), self._caller()))})
         except RequestRefused as error:
             return failure(error.status, str(error))
+
+    def _caller(self):
+        token = flask.request.args.get(TOKEN_ARGUMENT)
+        if token is None:
+            return RequestCaller(self._find_user)
+        caller = self._redeem(token)
+        if caller is None:
+            raise RequestRefused(403, gettext("The token is unknown, was used, or is too old."))
+        return caller
 
     def _unknown(self, path):
         verbs = self._methods.verbs_of(path)
@@ -77,7 +108,9 @@ def failure(status, text):
 
 def _params(path):
     """Return what a method is given: the address's arguments before those of the body."""
-    arguments = {name: value for name, value in flask.request.args.items() if name != KEY_ARGUMENT}
+    arguments = {
+        name: value for name, value in flask.request.args.items() if name not in NO_PARAMETERS
+    }
     # OctoPrint's server hands on no body of other requests
     body = json_of(flask.request, force=True) if flask.request.method == "POST" else None
     body = body if isinstance(body, dict) else {}

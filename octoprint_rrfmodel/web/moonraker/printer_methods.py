@@ -12,11 +12,15 @@ CONTROL = "PLUGIN_RRFMODEL_CONTROL"
 EMERGENCY_STOP = "printer.emergency_stop"
 
 
-def printer_methods(objects, scripts, store, *, websocket_count):
+def printer_methods(objects, scripts, store, *, websocket_count, components=list):
     """Return the rows; ``websocket_count()`` is the number of sockets that are open.
 
-    ``objects`` gives the printer objects, ``scripts`` sends G-code, ``store`` has what was said.
+    ``components()`` names the parts of Moonraker that are here. ``objects`` gives the printer
+    objects, ``scripts`` sends G-code, ``store`` has what was said.
     """
+
+    def server_info(call):
+        return {**objects.server_info(websocket_count()), "components": components()}
 
     def run_script(call):
         scripts.run(call.params.get("script"))
@@ -35,7 +39,7 @@ def printer_methods(objects, scripts, store, *, websocket_count):
         return found
 
     return (
-        Method("server.info", lambda call: objects.server_info(websocket_count())),
+        Method("server.info", server_info),
         Method("server.gcode_store", lambda call: said_lately(call, store)),
         Method("printer.info", lambda call: objects.printer_info()),
         Method("printer.objects.list", lambda call: {"objects": objects.names()}),
@@ -45,6 +49,8 @@ def printer_methods(objects, scripts, store, *, websocket_count):
             verbs=("GET", "POST"),
         ),
         Method("printer.objects.subscribe", subscribe, verbs=("POST",)),
+        Method("printer.query_endstops.status", lambda call: endstops(objects)),
+        Method("printer.gcode.help", lambda call: command_help(objects)),
         Method("printer.gcode.script", run_script, CONTROL, verbs=("POST",)),
         Method(EMERGENCY_STOP, stop, CONTROL, verbs=("POST",)),
     )
@@ -56,6 +62,19 @@ def wanted_of(call):
         return klipper.wanted_of(call.params.get("objects"))
     except ValueError as error:
         raise RequestRefused(400, str(error)) from None
+
+
+def endstops(objects):
+    """Return the state of each axis' endstop, in Klipper's words."""
+    found = objects.query({"query_endstops": None})["status"]["query_endstops"]
+    states = found.get("last_query") or {}
+    return {name: "TRIGGERED" if state else "open" for name, state in states.items()}
+
+
+def command_help(objects):
+    """Return what each command does that the object ``gcode`` knows."""
+    commands = objects.query({"gcode": None})["status"]["gcode"]["commands"]
+    return {name: command["help"] for name, command in commands.items() if "help" in command}
 
 
 def said_lately(call, store):

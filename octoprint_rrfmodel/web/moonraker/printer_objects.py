@@ -54,6 +54,10 @@ class PrinterObjects:
         model = self._follower.store.model
         return klipper.World(model, self._host(), self._kept.snapshot, self._clock())
 
+    def model(self):
+        """Return the snapshot."""
+        return self._follower.store.model
+
     def names(self):
         """Return the names of the objects that there are."""
         return klipper.names(self.world())

@@ -3,6 +3,7 @@
 from octoprint.access.users import LoginStatusListener
 from tornado.ioloop import IOLoop
 
+from . import jsonrpc
 from .off_loop import OffLoop
 from .subscribers import Subscribers
 from .websocket import PrinterSocket, SocketHub
@@ -14,14 +15,16 @@ class Sockets(LoginStatusListener):
     """Serves the websocket's route and hands news to Tornado's loop; a listener.
 
     ``objects`` gives the printer objects, ``methods()`` is the table of what can be asked,
-    ``users()`` OctoPrint's user manager.
+    ``users()`` OctoPrint's user manager. ``redeem(token)`` gives whom a token stands for.
     """
 
-    def __init__(self, objects, methods, users, *, clock):
+    def __init__(self, objects, methods, users, *, clock, redeem):
         self._objects = objects
         self._methods = methods
         self._users = users
         self._clock = clock
+        self._redeem = redeem
+        self._watched = []
         self._ticked_at = 0.0
         self._loop = None
         self._is_announced = False
@@ -35,10 +38,18 @@ class Sockets(LoginStatusListener):
             self._methods(),
             self._objects.state,
             Subscribers(self._objects.world, self._loop, run),
-            find_user=self._find_user,
+            find_user=self.find_user,
             run=run,
+            redeem=self._redeem,
         )
         return [(r"/websocket", PrinterSocket, {"hub": self._hub, "app": app})]
+
+    def watch(self, news):
+        """Have ``news()`` asked whenever anything may have changed, on the loop.
+
+        It gives what there is to tell: names of notifications, each with its parameters.
+        """
+        self._watched.append(news)
 
     def count(self):
         """Return how many sockets are open."""
@@ -53,6 +64,9 @@ class Sockets(LoginStatusListener):
     def _changed(self):
         self._is_announced = False
         self._hub.changed()
+        for news in self._watched:
+            for method, params in news():
+                self._hub.tell(jsonrpc.notification(method, params))
 
     ##~~ a listener
 
@@ -98,5 +112,6 @@ class Sockets(LoginStatusListener):
         if self.count():
             self._loop.add_callback(getattr(self._hub, name), *arguments)
 
-    def _find_user(self, name):
+    def find_user(self, name):
+        """Return OctoPrint's user of that name, ``None`` for nobody."""
         return self._users().find_user(name)

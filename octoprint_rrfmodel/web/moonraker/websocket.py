@@ -8,9 +8,10 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import tornado.websocket
+from flask_babel import gettext
 
 from ...host.answers import RequestRefused
-from ..access import WithoutKeys, caller_of
+from ..access import WithoutKeys, caller_of, caller_of_key
 from ..origin import is_own
 from . import jsonrpc
 from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
@@ -42,25 +43,40 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
         self._hub = hub
         self._app = app
         self._unsent = 0
-        self._is_dropped = False
+        self._is_dropped = self._has_token = False
         self.id = next(self._ids)
         self.caller = None
 
     def prepare(self):
-        """Let in who shows a key or a session and has READ: OctoPrint checks nothing here."""
-        self.caller = caller_of(self._app, self.request, self._hub.find_user)
+        """Let in who shows a key, a token or a session and has READ: OctoPrint checks nothing."""
+        token = self.get_query_argument("token", None)
+        self._has_token = token is not None
+        if self._has_token:
+            self.caller = self._hub.redeem(token)
+        else:
+            self.caller = caller_of(self._app, self.request, self._hub.find_user)
         if self.caller is None or not self.caller.may_read():
             self.set_status(403)
             self.finish({"error": "You may not read the machine's model."})
 
     def check_origin(self, origin):
-        """Return whether a page may open this: any that has a key, of sessions only our own."""
-        return not self.caller.is_of_session or is_own(self._app, self.request, origin)
+        """Return whether a page may open this: any that has a key or a token, of sessions only
+        our own. A token was read by who shows it, which a page of another site can't make us do.
+        """
+        is_shown = self._has_token or not self.caller.is_of_session
+        return is_shown or is_own(self._app, self.request, origin)
 
     def open(self, *args, **kwargs):
         """Begin with nothing subscribed."""
         self.set_nodelay(True)
         self._hub.opened(self)
+
+    def act_for(self, key):
+        """Do from now on what the owner of a key may; ``RequestRefused`` for who may not read."""
+        caller = caller_of_key(self._app, self.request, key, self._hub.find_user)
+        if caller is None or not caller.may_read():
+            raise RequestRefused(403, gettext("The API key is unknown, or may not read the model."))
+        self.caller = caller
 
     async def on_message(self, message):
         """Answer a call, or several; Tornado takes the next message when this one is answered."""
@@ -121,15 +137,17 @@ class SocketHub:
 
     ``methods`` is the table of what can be asked (``Methods``), ``state()`` the printer's state in
     Klipper's words, ``subscribers`` keeps who wants what; ``find_user(name)`` is OctoPrint's.
-    ``run(function)`` gives a future of its result, which it works out off the loop.
+    ``run(function)`` gives a future of its result, which it works out off the loop. ``redeem``
+    gives whom a token stands for.
     """
 
-    def __init__(self, methods, state, subscribers, *, find_user, run):
+    def __init__(self, methods, state, subscribers, *, find_user, run, redeem):
         self._methods = methods
         self._now = state
         self._subscribers = subscribers
         self.find_user = find_user
         self.run = run
+        self.redeem = redeem
         self.sockets = set()
         """Those that are open."""
         self._state = None
@@ -183,12 +201,12 @@ class SocketHub:
             self._state = state
             method = KLIPPY_NOTIFICATIONS.get(state)
             if method:
-                self._tell(jsonrpc.notification(method, []))
+                self.tell(jsonrpc.notification(method, []))
         self._subscribers.changed()
 
     def responded(self, line):
         """Tell the sockets a line that the printer said."""
-        self._tell(jsonrpc.notification("notify_gcode_response", [line]))
+        self.tell(jsonrpc.notification("notify_gcode_response", [line]))
 
     def logged_out(self, user):
         """Drop the sockets of a session that has ended."""
@@ -213,7 +231,8 @@ class SocketHub:
                 self.closed(socket)
                 socket.close(POLICY_VIOLATION, "You may not read any longer")
 
-    def _tell(self, text):
+    def tell(self, text):
+        """Send a notification to all."""
         for socket in list(self.sockets):
             socket.send(text)
 

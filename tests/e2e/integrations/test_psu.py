@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from tests.support import plugins
+from tests.support.basedir import READER
 
 from .. import helpers
+from ..web.test_websocket import Socket
 
 PSUCONTROL = Path(plugins.__file__).with_name("psucontrol.py")
 ENDPOINT = "/api/plugin/psucontrol"
@@ -52,6 +54,28 @@ def test_switches_and_knows_the_state(server, board):
         assert sent == [command]
 
 
+def test_clients_of_moonrakers_switch_both(server, board):
+    """What PSUControl senses is known to it only later."""
+    devices = {"machine": "M80 and M81", "PSUControl": "the same, by way of PSUControl"}
+    with Socket(server) as socket:
+        listed = socket.result("machine.device_power.devices")["devices"]
+        assert {each["device"] for each in listed} == set(devices)
+        for device in devices:
+            for word in ("off", "on"):
+                socket.notifications.clear()
+                asked = {"device": device, "action": word}
+                assert socket.result("machine.device_power.post_device", **asked)
+                (told,) = socket.wait_for("notify_power_changed")
+                assert (told["device"], told["status"]) == ("machine", word)
+                state = socket.result("machine.device_power.get_device", device="machine")
+                assert state == {"machine": word}
+                assert board.board.model["state"]["atxPower"] is (word == "on")
+    server.wait_for(lambda: is_on(server), 10, "PSUControl to sense it")
+    with Socket(server, READER) as socket:
+        asked = {"device": "machine", "action": "off"}
+        assert socket.error("machine.device_power.post_device", **asked) == -32000
+
+
 @pytest.mark.both_hosts("each streams and pauses with its own code")
 def test_refusal_is_logged_and_nothing_is_sent(server, board):
     server.commands("G28")
@@ -62,6 +86,10 @@ def test_refusal_is_logged_and_nothing_is_sent(server, board):
     before = len(board.board.received())
     try:
         switch(server, "Off")
+        for device in ("machine", "PSUControl"):
+            asked = {"device": device, "action": "off"}
+            path = "/plugin/rrfmodel/machine/device_power/device"
+            assert server.post(path, json=asked).status_code == 409
         helpers.wait_polls(server, 2)
         assert "M81" not in helpers.commands(board)[before:]
         assert "ValueError" in server.log()

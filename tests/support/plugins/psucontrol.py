@@ -65,6 +65,15 @@ class PSUControl(
     def on_api_command(self, command, data):
         self._switch(command == "turnPSUOn")
 
+    def turn_psu_on(self):
+        self._switch(True)
+
+    def turn_psu_off(self):
+        self._switch(False)
+
+    def get_psu_state(self):
+        return self._is_on
+
     def _switch(self, on):
         self._calls.append(on)
         try:
@@ -105,7 +114,10 @@ class PSUControl(
 def __plugin_load__():
     global __plugin_implementation__, __plugin_helpers__, __plugin_hooks__
     __plugin_implementation__ = PSUControl()
-    __plugin_helpers__ = {"register_plugin": __plugin_implementation__.register_plugin}
+    __plugin_helpers__ = {
+        name: getattr(__plugin_implementation__, name)
+        for name in ("register_plugin", "turn_psu_on", "turn_psu_off", "get_psu_state")
+    }
     __plugin_hooks__ = {
         "octoprint.comm.protocol.gcode.queuing": __plugin_implementation__.on_queuing
     }
