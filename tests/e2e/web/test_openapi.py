@@ -74,6 +74,8 @@ def test_answers_as_described(case, server):
     hypothesis.assume(body.get("command") not in DISRUPTIVE)
     response = case.call(headers={"X-Api-Key": ADMIN.api_key}, timeout=30)
     assert response.status_code < 500
+    # Tornado hands on no body that isn't what its header says, and answers with nothing more
+    hypothesis.assume(response.status_code != 400 or response.content)
     case.validate_response(response, checks=CHECKS)
 
 
