@@ -73,7 +73,7 @@ $(function () {
 		//~~ factors
 
 		const speedFactor = ko.pureComputed(() => percentOf(move().speedFactor));
-		const setSpeed = percent => core.command("speed_factor", {percent: percent});
+		const setSpeed = percent => core.command("speed_factor", {percent});
 		self.speed = RRFModel.turned(core, speedFactor, setSpeed, 5, [1, 1000]);
 
 		const extruders = RRFModel.rows(
@@ -84,7 +84,7 @@ $(function () {
 					percent: percentOf(item.factor)
 				})),
 			function (row) {
-				const set = percent => core.command("extrusion_factor", {extruder: row.key, percent: percent});
+				const set = percent => core.command("extrusion_factor", {extruder: row.key, percent});
 				row.turned = RRFModel.turned(core, row.percent, set, 1, [1, 1000]);
 				row.label = named(row, gettext("Extrusion factor of %(name)s"));
 				row.lessLabel = named(row, gettext("Extrude less: %(name)s"));
@@ -115,8 +115,8 @@ $(function () {
 		const extrude = amount => core.command("extrude", {amounts: amount, speed: 60 * Number(self.extrudeSpeed())});
 		const lengths = (sign, text) =>
 			LENGTHS.map(length => ({
-				length: length,
-				label: _.sprintf(text, {length: length}),
+				length,
+				label: _.sprintf(text, {length}),
 				run: () => extrude(sign * length)
 			}));
 		self.extrusions = lengths(1, gettext("Extrude %(length)s mm"));

@@ -11,8 +11,8 @@ $(function () {
 	/** Elements of an array of the model with their indices, gaps left out. */
 	RRFModel.numbered = value =>
 		RRFModel.list(value)
-			.map((item, index) => ({item: item, index: index}))
-			.filter(found => !!found.item);
+			.map((item, index) => ({item, index}))
+			.filter(found => found.item);
 
 	const RANKS = ["off", "standby", "active"];
 
@@ -42,20 +42,14 @@ $(function () {
 		let known = new Map();
 
 		const rowOf = function (values) {
-			let row = known.get(values.key);
-			if (!row) {
-				row = {key: values.key};
-				Object.keys(values).forEach(function (name) {
-					if (name !== "key") row[name] = ko.observable(values[name]);
-				});
-				if (extend) extend(row);
-				return row;
-			}
-			Object.keys(values).forEach(function (name) {
+			const isNew = !known.has(values.key);
+			const row = isNew ? {key: values.key} : known.get(values.key);
+			Object.entries(values).forEach(function ([name, value]) {
 				if (name === "key") return;
-				if (row[name]) row[name](values[name]);
-				else row[name] = ko.observable(values[name]);
+				if (row[name]) row[name](value);
+				else row[name] = ko.observable(value);
 			});
+			if (isNew && extend) extend(row);
 			return row;
 		};
 
@@ -85,13 +79,16 @@ $(function () {
 			const isLater = typeof age === "number" && at - age * 1000 > sent().at + UNDERWAY_MS;
 			return isLater || (!core.status().blocked && Date.now() - sent().at > LOST_MS);
 		};
+		const isOpen = () => sent() && !isTold();
 		return {
 			values: () =>
 				told().map((value, place) =>
-					sent() && !isTold() && value === sent().before[place] ? sent().values[place] : value
+					isOpen() && sent().before.some(each => each[place] === value) ? sent().values[place] : value
 				),
 			send: function (values, promise) {
-				const mine = {values: values, before: told(), at: Date.now()};
+				// what was sent before comes from the machine, too
+				const earlier = isOpen() ? [...sent().before, sent().values] : [];
+				const mine = {values, before: [...earlier, told()], at: Date.now()};
 				sent(mine);
 				return promise.fail(() => {
 					if (sent() === mine) sent(null);

@@ -211,3 +211,25 @@ def test_a_question_is_text_wherever_its_words_come_from(page, page_errors):
     expect(question).to_have_count(0)
     assert page.evaluate("window.proceeded") is True
     assert own_errors(page_errors) == []
+
+
+QUICK = """() => {
+    const told = ko.observable(100);
+    const core = {
+        received: ko.observable({age: 0, at: Date.now()}), status: ko.observable({blocked: null})
+    };
+    const given = RRFModel.lastGiven(core, () => [told()]);
+    const shown = [];
+    const open = $.Deferred();
+    for (const sent of [95, 96]) given.send([sent], open);
+    for (const value of [100, 95, 96, 90]) {
+        told(value);
+        shown.push(given.values()[0]);
+    }
+    return shown;
+}"""
+
+
+def test_what_was_sent_first_is_no_news_when_the_machine_tells_it(page):
+    """Or a third click, counted from it, would take back the second."""
+    assert page.evaluate(QUICK) == [96, 96, 96, 90]
