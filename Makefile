@@ -9,6 +9,7 @@ DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 MINUTES ?= 10
 SECONDS ?= 280
+BRANCHES ?= 95
 FUZZ_ARGS ?=
 ENDURANCE_ARGS ?=
 
@@ -172,11 +173,13 @@ format: .venv/octoprint-1.11/.ready $(PAGE_LINT)/.ready
 		$(PAGE_LINT)/node_modules/.bin/prettier --write --log-level=warn "$(STATIC)/**/*.{js,css}" tools; \
 	fi
 
-# The pure half by its own tests; beside what make test takes it is minutes, so that it is a target of its own
+# The pure half by its own tests alone; five minutes, so that it is no part of make test
 coverage: .venv/octoprint-1.11/.ready
 	@mkdir -p .artifacts
 	@$(VENV_1.11)/bin/python -m coverage run -m pytest -q -n 0 tests/rrf
 	@$(VENV_1.11)/bin/python -m coverage report
+	@$(VENV_1.11)/bin/python -m coverage json --quiet -o .artifacts/coverage.json
+	@$(VENV_1.11)/bin/python tools/branches.py .artifacts/coverage.json $(BRANCHES)
 
 dist: .venv/octoprint-2.0/.ready
 	@$(VENV_2.0)/bin/python -m build --outdir dist .
