@@ -157,14 +157,17 @@ def test_old_helper_is_not_mentioned(source):
     assert mentions == []
 
 
-@pytest.fixture
-def throwaway_python(tmp_path):
-    """Interpreter of an environment that has OctoPrint and nothing else, for this test alone."""
+@pytest.fixture(scope="module")
+def throwaway_python(tmp_path_factory):
+    """Interpreter of an environment that has OctoPrint and nothing else.
+
+    It is for these tests alone, each of which leaves it without the plugin.
+    """
     plain = Path(f"{sys.prefix}-plain")
     if not (plain / ".ready").exists():
         message = f"no environment with OctoPrint alone in {plain}: make environments builds it"
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
-    copy = tmp_path / "environment"
+    copy = tmp_path_factory.mktemp("plain") / "environment"
     # the interpreter finds its environment by where it was started, so that a copy is as good
     shutil.copytree(plain, copy, symlinks=True)
     yield str(copy / "bin" / "python")
