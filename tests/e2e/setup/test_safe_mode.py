@@ -6,10 +6,13 @@ from pathlib import Path
 import pytest
 import yaml
 
+from octoprint_rrfmodel.simulator.board import Board
+from octoprint_rrfmodel.simulator.network.http_board import HttpBoard
 from tests.support.basedir import ADMIN, is_version_2
-from tests.support.client import Client
+from tests.support.push import PushListener
 
 from .. import helpers
+from ..network import bench
 
 pytestmark = [
     pytest.mark.both_hosts("each has its own deprecations, and its own way to leave plugins out"),
@@ -35,11 +38,26 @@ def server(module_server_factory):
 
 def page(server):
     """Return OctoPrint's page as the admin sees it."""
-    client: Client = server.session(ADMIN)
-    with client:
+    with server.session(ADMIN) as client:
         response = client.get("/")
     assert response.status_code == 200
     return response.text
+
+
+def use(server, storage):
+    """Have the plugin do what it does for whoever prints a file from there."""
+    for path in ("status", "model", "history", "jobs", "metrics", "openapi.json"):
+        response = server.get(f"/plugin/rrfmodel/{path}")
+        assert response.status_code == 200, path
+    if storage == "local":
+        server.upload("short.gcode", FILE)
+    place = f"/api/files/{storage}/short.gcode"
+    server.wait_for(lambda: server.get(place).status_code == 200, 30, "the file")
+    with PushListener(server, ADMIN) as push:
+        response = server.post(place, json={"command": "select", "print": True})
+        assert response.ok, response.text
+        push.wait_for_event("PrintDone", 60)
+    server.wait_state("Operational")
 
 
 def test_nothing_deprecated_is_used(server, board_factory):
@@ -47,16 +65,14 @@ def test_nothing_deprecated_is_used(server, board_factory):
     for command in ("fix_settings", "fix_profile"):
         response = server.post("/api/plugin/rrfmodel", json={"command": command})
         assert response.status_code == 204, response.text
-    for path in ("status", "model", "history", "jobs", "metrics", "openapi.json"):
-        response = server.get(f"/plugin/rrfmodel/{path}")
-        assert response.status_code == 200, path
-    server.upload("short.gcode", FILE)
-    server.select_and_print("short.gcode")
-    server.wait_for(
-        lambda: server.job()["progress"]["completion"] == 100, 60, "the end of the print"
-    )
-    server.wait_state("Operational")
+    use(server, "local")
     assert "rrfmodel" in page(server)
+    if is_version_2(server.version):
+        with HttpBoard(Board(machine="cartesian", speed=10)) as face:
+            face.board.card.write("0:/gcodes/short.gcode", FILE)
+            bench.connect(server, face)
+            use(server, "printer")
+            helpers.disconnect(server)
     helpers.disconnect(server)
     assert DEPRECATED.findall(server.log()) == [OLD_FASHIONED.stem]
 
