@@ -181,3 +181,41 @@ def test_what_the_plugin_uses_comes_with_octoprint_under_a_licence_that_fits():
         if not ALLOWED.search(licence_of(distribution))
     }
     assert refused == {}
+
+
+WORKFLOWS = ROOT / ".github" / "workflows"
+
+
+def test_the_workflows_run_what_there_is_on_all_pythons_that_are_named():
+    workflow = yaml.safe_load((WORKFLOWS / "checks.yml").read_text("utf-8"))
+    text = "\n".join(path.read_text("utf-8") for path in WORKFLOWS.glob("*.yml"))
+    targets = set(re.findall(r"^([\w.-]+):", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE))
+    assert set(re.findall(r"\bmake ([\w.-]+)", text)) <= targets
+    pythons = {"3.9", *workflow["jobs"]["everything"]["strategy"]["matrix"]["python"]}
+    prefix = "Programming Language :: Python :: 3."
+    named = {each.rpartition(" ")[2] for each in PROJECT["classifiers"] if each.startswith(prefix)}
+    assert pythons == named
+    # what somebody else may change must not run here
+    assert all(re.search(r"@[0-9a-f]{40} # v", use) for use in re.findall(r"uses: \w.*", text))
+
+
+def test_forms_ask_for_the_support_bundle():
+    forms = ROOT / ".github" / "ISSUE_TEMPLATE"
+    for name in ("bug", "firmware"):
+        form = yaml.safe_load((forms / f"{name}.yml").read_text("utf-8"))
+        (bundle,) = (part for part in form["body"] if part.get("id") == "bundle")
+        assert bundle["attributes"]["label"] == "Support bundle"
+        assert bundle["validations"]["required"]
+
+
+TOOLS = {"ruff", "mypy", "lint-imports", "codespell", "djlint"}
+
+
+def test_the_hooks_before_a_commit_are_those_of_lint():
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text("utf-8"))
+    entries = " ".join(hook["entry"] for repo in hooks["repos"] for hook in repo["hooks"])
+    lint = (
+        (ROOT / "Makefile").read_text("utf-8").partition("\nlint: ")[2].partition("\nformat: ")[0]
+    )
+    for each in (*TOOLS, "lint-page"):
+        assert each in entries and each in lint, each
