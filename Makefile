@@ -9,6 +9,7 @@ DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 MINUTES ?= 10
 SECONDS ?= 280
+BRANCHES ?= 95
 FUZZ_ARGS ?=
 ENDURANCE_ARGS ?=
 
@@ -30,13 +31,16 @@ export PIP_NO_INPUT := 1
 export PYTHONDONTWRITEBYTECODE :=
 
 .DELETE_ON_ERROR:
-.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint format bench fuzz endurance endurance-network silence demo docs reference translations environments clean
+.PHONY: help test test-1.11 test-2.0 test-pure-py39 lint lint-page format coverage dist bench fuzz endurance endurance-network silence demo docs reference translations environments clean
 
 help:
 	@echo "make test           lint and the tests in OctoPrint 1.11 and 2.0, side by side"
 	@echo "make test-1.11      the tests in OctoPrint 1.11; test-2.0 likewise"
 	@echo "make test-pure-py39 the tests that need no OctoPrint, in Python 3.9 (PYTHON39=...)"
-	@echo "make lint           ruff, mypy and the floors; make format lets ruff put files in shape"
+	@echo "make lint           ruff, mypy, the floors, spelling, templates, scripts and styles (those with Node);"
+	@echo "                    make format puts files in shape"
+	@echo "make coverage       how much of octoprint_rrfmodel/rrf its own tests reach; 95 % of branches at least"
+	@echo "make dist           source distribution and wheel, in dist/"
 	@echo "make bench          the measurements in tests/bench"
 	@echo "make fuzz           inputs by chance and by coverage to all that takes any; MINUTES=10"
 	@echo "make endurance      prints, faults and visitors of a simulated week, in both OctoPrints; MINUTES=30"
@@ -98,7 +102,23 @@ $(DOCS)/.ready: requirements/docs.txt
 	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
-environments: $(READY) $(PLAIN) $(CLIENTS)/.ready $(DOCS)/.ready
+# What looks through the page's scripts and styles, where Node is there
+
+PAGE_LINT := .venv/page-lint
+STATIC := octoprint_rrfmodel/static
+
+$(PAGE_LINT)/.ready: tools/package.json
+	@mkdir -p $(@D)
+	@cp $< $(@D)
+	@if ! command -v npm >/dev/null; then \
+		echo "no npm: scripts and styles of the page are not looked through"; \
+	elif npm install --prefix $(@D) --no-package-lock --no-audit --no-fund --silent --fetch-retries=1; then \
+		touch $@; \
+	else \
+		echo "ESLint and Prettier can't be had: scripts and styles of the page are not looked through"; \
+	fi
+
+environments: $(READY) $(PLAIN) $(CLIENTS)/.ready $(DOCS)/.ready $(PAGE_LINT)/.ready
 	@:
 
 # Tests
@@ -125,17 +145,44 @@ test-pure-py39: .venv/python-3.9/.ready
 	@$(@D)/bin/python -m pip install -qq --requirement $<
 	@touch $@
 
-lint: .venv/octoprint-1.11/.ready
+lint: .venv/octoprint-1.11/.ready $(PAGE_LINT)/.ready
 	@status=0; \
 	for check in "python -m ruff check --quiet" "python -m ruff format --check --quiet" \
-		"python -m mypy" "lint-imports"; do \
+		"python -m mypy" "lint-imports" "codespell"; do \
 		$(VENV_1.11)/bin/$$check || { echo "lint: $$check failed"; status=1; }; \
 	done; \
+	found=$$($(VENV_1.11)/bin/djlint --lint octoprint_rrfmodel/templates 2>/dev/null) \
+		|| { echo "$$found"; echo "lint: djlint failed"; status=1; }; \
+	$(MAKE) --no-print-directory lint-page || status=1; \
 	exit $$status
 
-format: .venv/octoprint-1.11/.ready
+lint-page: $(PAGE_LINT)/.ready
+	@status=0; \
+	if [ -e $< ]; then \
+		$(PAGE_LINT)/node_modules/.bin/eslint --config tools/eslint.config.mjs $(STATIC) \
+			|| { echo "lint: eslint failed"; status=1; }; \
+		$(PAGE_LINT)/node_modules/.bin/prettier --check --log-level=warn "$(STATIC)/**/*.{js,css}" tools \
+			|| { echo "lint: prettier failed, make format puts it right"; status=1; }; \
+	fi; \
+	exit $$status
+
+format: .venv/octoprint-1.11/.ready $(PAGE_LINT)/.ready
 	@$(VENV_1.11)/bin/python -m ruff check --quiet --fix
 	@$(VENV_1.11)/bin/python -m ruff format
+	@if [ -e $(PAGE_LINT)/.ready ]; then \
+		$(PAGE_LINT)/node_modules/.bin/prettier --write --log-level=warn "$(STATIC)/**/*.{js,css}" tools; \
+	fi
+
+# The pure half by its own tests alone; five minutes, so that it is no part of make test
+coverage: .venv/octoprint-1.11/.ready
+	@mkdir -p .artifacts
+	@$(VENV_1.11)/bin/python -m coverage run -m pytest -q -n 0 tests/rrf
+	@$(VENV_1.11)/bin/python -m coverage report
+	@$(VENV_1.11)/bin/python -m coverage json --quiet -o .artifacts/coverage.json
+	@$(VENV_1.11)/bin/python tools/branches.py .artifacts/coverage.json $(BRANCHES)
+
+dist: .venv/octoprint-2.0/.ready
+	@$(VENV_2.0)/bin/python -m build --outdir dist .
 
 bench: .venv/octoprint-2.0/.ready
 	@$(VENV_2.0)/bin/python -m tests.bench

@@ -21,6 +21,7 @@ def hooks_of(plugin):
         "octoprint.comm.protocol.temperatures.received": parts.display.on_temperatures,
         "octoprint.comm.transport.serial.factory": port.open,
         "octoprint.comm.transport.serial.additional_port_names": port.names,
+        "octoprint.plugin.softwareupdate.check_config": plugin.update_check,
         "octoprint.printer.sdcardupload": parts.uploads.on_upload,
         "octoprint.server.api.before_request": plugin.before_request,
         "octoprint.server.http.routes": plugin.routes,

@@ -9,6 +9,7 @@ from .assembly import Assembly
 from .host.host import Host
 from .host.notes import DISABLED_PLUGIN
 from .host.plugin_settings import DEFAULTS, VERSION
+from .host.updates import update_check
 from .web.assets import assets_of
 from .web.bundle_api import BundleHandler
 from .web.endpoints import Endpoints
@@ -182,6 +183,11 @@ class RrfModelPlugin(
             (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": Thumbnails(questions, model)}),
             *self.parts.moonraker.sockets.routes(app),
         ]
+
+    ##~~ octoprint.plugin.softwareupdate.check_config
+
+    def update_check(self, *args, **kwargs):
+        return update_check(self._identifier, self._plugin_name, self._plugin_version)
 
     ##~~ octoprint.server.api.before_request
 

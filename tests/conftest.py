@@ -80,6 +80,7 @@ SECONDS = {
     "network/test_stop": 30,
     "setup/test_settings": 100,
     "setup/test_buttons": 60,
+    "setup/test_safe_mode": 40,
     "integrations/test_layer_progress": 120,
     "integrations/test_mqtt": 90,
     "integrations/test_onlookers": 60,

@@ -16,7 +16,6 @@ $(function () {
 	const BELOW = {dir1: "up", dir2: "left", firstpos1: 25, firstpos2: 25};
 
 	function RrfModelNotificationsViewModel(parameters) {
-		const self = this;
 		const core = parameters[0];
 		let told = new Map();
 

@@ -1,6 +1,6 @@
 /* Outputs, variables, kept positions, drivers and sound, in the sub-view Machine. */
 $(function () {
-	const {list, numbered, object, isNumber, show} = RRFModel;
+	const {list, numbered, object, show} = RRFModel;
 	const SOUND = "rrfmodel.sound";
 	const MOST_MS = 5000;
 	/** Bits of a driver's status, the worst first; of one that stands the load says nothing. */

@@ -193,7 +193,8 @@
 		self.backup = ko.pureComputed(() => (self.file() ? folderOf("system") + "/backup" : ""));
 
 		// what had the focus goes with what was shown
-		const focusOn = name => window.setTimeout(() => dialog.find(`[data-test=${name}]:visible`).first().trigger("focus"));
+		const focusOn = name =>
+			window.setTimeout(() => dialog.find(`[data-test=${name}]:visible`).first().trigger("focus"));
 
 		/** Hands an answer over unless something else was asked for meanwhile. */
 		const ask = function (promise, take) {
