@@ -2,7 +2,7 @@
 $(function () {
 	/** A reply that came so soon after a command may have been asked for before it. */
 	const UNDERWAY_MS = 2000;
-	/** Then what was sent holds no longer, though no newer model has come. */
+	/** Then what was sent holds no longer, though nothing newer has come. */
 	const LOST_MS = 30000;
 
 	RRFModel.list = value => (Array.isArray(value) ? value : []);
