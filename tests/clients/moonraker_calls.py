@@ -287,7 +287,6 @@ WAITED_FOR = frozenset(
         "server.files.roots",
         "server.history.list",
         "server.history.totals",
-        "server.job_queue.status",
     )
 )
 """Methods that are not there yet; one that has come has to be taken out."""

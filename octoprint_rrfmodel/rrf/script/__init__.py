@@ -6,6 +6,6 @@
 
 One row for each command of Klipper's is in ``table``, by topic in ``heat``, ``move``, ``prints``
 and ``tuning``; what has no counterpart is in ``refusals``, with the reason. The commands and their
-parameters are those of Klipper's ``docs/G-Codes.md``; which of them clients send was read in
+parameters are those that Klipper documents; which of them clients send was read in
 Mainsail 2.17, Fluidd, KlipperScreen, Mobileraker and moonraker-obico.
 """

@@ -334,13 +334,18 @@ def test_a_proxy_as_in_the_docs(server, proxied, name):
 
 
 @pytest.fixture(scope="module")
-def with_key(server, proxied):
+def with_key(server, proxied, tmp_path_factory):
     """The port of a proxy that adds a key, as in the docs."""
     port = ports.free_port()
-    text, keys, header = blocks("nginx")
+    text, keys, header, page = blocks("nginx")
     location = "        proxy_http_version 1.1;\n"
-    text = keys.replace("KEY", OPERATOR.api_key) + text.replace(location, location + header)
-    proxied("nginx", placed(text, server, port))
+    text = text.replace(location, location + header)
+    folder = tmp_path_factory.mktemp("page")
+    (folder / "index.html").write_text("a page")
+    text = text.replace("return 404;", page.replace("/var/www/mainsail", str(folder)))
+    own = f'    "http://127.0.0.1:{port}" "KEY";\n}}'
+    keys = keys.replace("}", own).replace("KEY", OPERATOR.api_key)
+    proxied("nginx", placed(keys + text, server, port))
     server.wait_for(lambda: answers(f"http://127.0.0.1:{port}", key=""), 20, "nginx")
     return port
 
@@ -382,6 +387,13 @@ def test_moonrakerpy(with_key):
     printer = MoonrakerPrinter(f"http://127.0.0.1:{with_key}")
     assert "homed_axes" in printer.query_status("toolhead")
     assert printer.send_gcode("M117 hello")
+
+
+def test_a_page_of_its_own_gets_in(with_key):
+    url = f"http://127.0.0.1:{with_key}"
+    assert requests.get(f"{url}/settings/any", timeout=10).text == "a page"
+    with Socket(url, origin=url) as socket:
+        assert socket.answer("printer.info", {})["result"]["state"] == "ready"
 
 
 def test_a_page_of_another_site_gets_no_key(with_key):
