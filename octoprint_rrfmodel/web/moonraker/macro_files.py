@@ -54,7 +54,8 @@ class MacroFiles:
 
     async def _look(self):
         if self._reading is None:
-            if self._loop.time() < self._not_before:
+            # another may have looked since it was found to be due
+            if not self._is_due() or self._loop.time() < self._not_before:
                 return
             self._reading = asyncio.ensure_future(self._read())
         # who gives up must not end it for the others
