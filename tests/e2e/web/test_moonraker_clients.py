@@ -52,16 +52,22 @@ class Socket:
     """A client's socket: one call after the other."""
 
     def __init__(self, url, **options):
-        self._socket = websocket.create_connection(
-            url.replace("http", "ws", 1) + "/websocket", timeout=15, **options
-        )
+        self._socket = websocket.WebSocket()
+        self._socket.settimeout(15)
         self._last = 0
+        try:
+            self._socket.connect(url.replace("http", "ws", 1) + "/websocket", **options)
+        except websocket.WebSocketBadStatusException:
+            self._socket.shutdown()
+            raise
 
     def __enter__(self):
         return self
 
     def __exit__(self, *exc_info):
         self._socket.close()
+        # of a connection that the server has closed the library leaves the socket open
+        self._socket.shutdown()
 
     def answer(self, method, params):
         self._last += 1
