@@ -1,6 +1,6 @@
 # Everything a developer or a CI machine runs. `make test` needs python3 (3.9 to 3.13), a C compiler
-# (one dependency of OctoPrint 1.11 comes as source), Debian's chromium for the browser tests and
-# mosquitto for those of MQTT.
+# (one dependency of OctoPrint 1.11 comes as source), Debian's chromium for the browser tests, mosquitto
+# for those of MQTT, nginx, haproxy and caddy for those of reverse proxies.
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9

@@ -120,14 +120,13 @@ class Assembly:
         )
 
     def _make_control(self):
-        self._rate = Rate(self._clock)
         self._commands = MachineCommands(
             self._links,
             self._known.machine,
             self._boxes,
             recovery=self._recovery,
             look=partial(self.worker.notify, "look"),
-            rate=self._rate,
+            rate=Rate(self._clock),
         )
         self.questions = Questions(self._poller, self._links)
 
@@ -143,7 +142,7 @@ class Assembly:
         told.update(heater_ages=self._heater_ages, simulated_file=self._simulation, **prints.told)
         told["beside"] = self.beside.is_found
         self.status = PluginStatus(host.version, self._links, self._poller, known=known, **told)
-        parts = Parts(self._rate, self._commands.command, lambda time: self.history.samples(time))
+        parts = Parts(self._commands, lambda time: self.history.samples(time))
         self.moonraker = Moonraker(host, self._follower, self._links, parts=parts, **notes)
         subscribers = self._plugin_subscribers = PluginSubscribers(host.plugins, model)
         self._audience = Audience(self._interest, self.moonraker.sockets.count, subscribers.paths)
@@ -266,16 +265,16 @@ class Assembly:
         """Begin to work: OctoPrint is up."""
         for part in self._threads():
             part.start()
-        self.moonraker.start()
 
     def stop(self):
-        """End all threads."""
+        """End all threads, and leave what was listened to."""
         for part in reversed(self._threads()):
             part.stop()
 
     def _threads(self):
         own = self.bundle, self._pages, self._sender, self.prints, self.worker, self._file_check
-        return (*own, *self.networks, self.other_plugins, self._plugin_subscribers)
+        others = self.other_plugins, self._plugin_subscribers, self.moonraker
+        return (*own, *self.networks, *others)
 
     def on_event(self, event, payload):
         """Hand on what OctoPrint says of its connection and its prints."""
@@ -287,7 +286,7 @@ class Assembly:
         if not is_line and event != Events.SETTINGS_UPDATED:
             # a print that the board runs by itself is nothing to who looks after a streamed one
             return
-        for part in (self.moonraker.job, self._file_check, self.prints):
+        for part in (self.moonraker, self._file_check, self.prints):
             part.on_event(event, payload)
         note = NOTES.get(event)
         if note and self._links.is_rrf:

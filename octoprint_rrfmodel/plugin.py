@@ -181,7 +181,7 @@ class RrfModelPlugin(
             (r"/machine_file", MachineFileHandler, files),
             (r"/files", FolderHandler, {**live, "folders": folders}),
             (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": Thumbnails(questions, model)}),
-            *self.parts.moonraker.sockets.routes(app),
+            *self.parts.moonraker.routes(app, folders, questions),
         ]
 
     ##~~ octoprint.plugin.softwareupdate.check_config

@@ -41,6 +41,9 @@ WORDS = {
     "silence_minutes": "Minutes that the board may say nothing during a command that takes long,"
     " before the connection ends; 0: any time",
     "mqtt.topic": "Topic to publish at, the whole of it",
+    "moonraker.address": "Address of that port; 127.0.0.1 is this computer alone, 0.0.0.0 all that"
+    " can reach it",
+    "moonraker.port": "Its number",
     "wizard_seen": "Somebody has been led through what a machine needs of OctoPrint",
     "network.gap_minutes": "Minutes that a board on the network may not answer, before the"
     " connection ends",

@@ -1,5 +1,6 @@
 """Commands to the machine: checked against model and state, then given to the link."""
 
+from ..host.answers import RequestRefused
 from ..host.command_texts import command_text
 from ..host.tags import COMMAND_TAG
 from ..rrf.gcode.blocking import blocks
@@ -20,11 +21,13 @@ class MachineCommands:
 
     def __init__(self, link, machine, boxes, *, recovery, look, rate):
         self._link = link
-        self._machine = machine
         self._boxes = boxes
         self._recovery = recovery
         self._look = look
-        self._rate = rate
+        self.rate = rate
+        """Counts what others may ask of the machine."""
+        self.machine = machine
+        """Gives the view of the model."""
 
     def command(self, name, /, **parameters):
         """Run a command, as other plugins do; ``ValueError`` says why it is refused.
@@ -37,7 +40,7 @@ class MachineCommands:
 
     def run(self, name, parameters):
         """Run a command; return status and sentence of one that is refused, else ``None``."""
-        machine = self._machine()
+        machine = self.machine()
         outcome = translate(name, parameters, machine, self._situation())
         if isinstance(outcome, Refusal):
             return outcome.status, command_text(outcome.code, outcome.values)
@@ -46,13 +49,24 @@ class MachineCommands:
         if name == "emergency_stop":
             self._link.stop_now({COMMAND_TAG})
             return None
-        if not self._rate.allows():
+        if not self.rate.allows():
             return 409, command_text("too_many", {})
         if name == "refresh":
             self._look(root_of(parameters.get("key") or ""))
             return None
         self._send(name, parameters, outcome.lines, machine)
         return None
+
+    def checked(self, name, parameters):
+        """Return the lines of a command, and send nothing; raise ``RequestRefused``."""
+        outcome = translate(name, parameters, self.machine(), self._situation())
+        if isinstance(outcome, Refusal):
+            text = command_text(outcome.code, outcome.values)
+            raise RequestRefused(outcome.status, text)
+        why = self._recovery.refusal() if name == "recover" else None
+        if why:
+            raise RequestRefused(409, why)
+        return outcome.lines
 
     def _send(self, name, parameters, lines, machine):
         """Give the lines to the link, or let OctoPrint do what it can do by itself."""

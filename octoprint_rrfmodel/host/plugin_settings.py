@@ -46,6 +46,12 @@ DEFAULTS = {
     },
     # tell what DisplayLayerProgress tells, where that plugin isn't there
     "layer_progress": True,
+    "moonraker": {
+        # listen on a port of its own for clients that know no prefix
+        "enabled": False,
+        "address": "127.0.0.1",
+        "port": 7125,
+    },
     # message boxes also in OctoPrint's own dialog for prompts of a printer
     "prompts": False,
     # rows of the sidebar that are shown

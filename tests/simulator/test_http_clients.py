@@ -125,6 +125,7 @@ def test_rrgit(tmp_path):
 def test_the_clients_are_those_that_are_named():
     """What is tried is what the files of versions say."""
     names = (ROOT / "requirements" / "network-clients.txt").read_text(encoding="utf-8")
-    assert all(f"{name}==" in names for name in ("duetwebapi", "rrgit", "simplyprint-duet3d"))
+    wanted = ("duetwebapi", "klipper-tui", "rrgit", "simplyprint-duet3d")
+    assert all(f"{name}==" in names for name in wanted)
     package = json.loads((SCRIPTS / "package.json").read_text(encoding="utf-8"))
     assert set(package["dependencies"]) == {"@duet3d/connectors", "jsdom"}

@@ -138,12 +138,10 @@ def test_components_are_those_that_have_methods():
 
 
 def test_endstops_and_commands_in_words():
-    status = {
-        "query_endstops": {"last_query": {"x": 1, "y": 0}},
-        "gcode": {"commands": {"G28": {"help": "Home axes"}, "G1": {}}},
-    }
+    status = {"query_endstops": {"last_query": {"x": 1, "y": 0}}}
     objects = SimpleNamespace(
-        query=lambda wanted: {"status": {each: status[each] for each in wanted}}
+        query=lambda wanted: {"status": {each: status[each] for each in wanted}},
+        help_texts=lambda: {"G28": "Home axes"},
     )
     rows = printer_methods(objects, None, None, websocket_count=int)
     assert ask(rows, "printer.query_endstops.status") == {"x": "TRIGGERED", "y": "open"}

@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..views.machine import array, mapping
+from .macro_names import macro_names
 from .printer import Model, Printer
 from .values import element, named, number, text, truth
 from .view import Row, View, each, one, where
 
-FOLDER = "0:/macros/"
+OF_PRINTS = ("PAUSE", "RESUME", "CANCEL_PRINT")
+"""Macros that clients want to be there; what they do is Moonraker's."""
 
 DETECTED = {
     "noFilament": False,
@@ -90,16 +92,26 @@ def _is_triggered(view: View, probe: Model) -> bool | None:
 
 
 def _macros(view: View) -> Mapping[str, Any]:
-    names: dict[str, Any] = {}
-    for path in view.host.macros:
-        name = path[len(FOLDER) :] if path.lower().startswith(FOLDER) else path
-        name = name[: -len(".g")] if name.lower().endswith(".g") else name
-        if name and name != "globals":
-            names[name] = {}
+    names: dict[str, Any] = dict.fromkeys(macro_names(view.host.macros), {})
     variables = view.model.get("global")
     if isinstance(variables, Mapping):
         names["globals"] = variables
     return names
+
+
+def _of_prints(view: View) -> Mapping[str, Any]:
+    return {name: name for name in OF_PRINTS}
+
+
+def _of_tools(view: View) -> Mapping[str, Any]:
+    """Return for each tool what selects it, where there is a choice."""
+    tools = sorted(view.tools)
+    return {f"T{tool}": tool for tool in tools} if len(tools) > 1 else {}
+
+
+def _renamed(name: str) -> dict[str, str]:
+    """Return the option by which clients know a macro that they need no button for."""
+    return {"rename_existing": f"BASE_{name}"}
 
 
 ROWS = (
@@ -125,5 +137,17 @@ ROWS = (
         },
     ),
     Row("manual_probe", one("manual_probe"), {"is_active": lambda view, _: False}),
+    Row(
+        "gcode_macro PAUSE",
+        each("gcode_macro", _of_prints),
+        {},
+        settings=lambda view, name: _renamed(name),
+    ),
+    Row(
+        "gcode_macro TN",
+        each("gcode_macro", _of_tools),
+        {"active": lambda view, tool: view.state.get("currentTool") == tool},
+        settings=lambda view, tool: _renamed(f"T{tool}"),
+    ),
     Row("gcode_macro X", each("gcode_macro", _macros), {}, members=lambda variables: variables),
 )

@@ -40,7 +40,9 @@ def house_methods(host, objects, sockets, tokens, parts):
         state = helpers["get_throttled"]() if "get_throttled" in helpers else None
         return getattr(state, "raw_value", None)
 
-    power = PowerDevices(objects.model, parts.command, host.plugins, print_state=print_state)
+    power = PowerDevices(
+        objects.model, parts.commands.command, host.plugins, print_state=print_state
+    )
     sockets.watch(power.news)
     return (
         *server_methods(webcams, temperature_store),

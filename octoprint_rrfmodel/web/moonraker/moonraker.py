@@ -3,12 +3,18 @@
 from functools import partial
 from typing import Any, Callable, NamedTuple
 
+from octoprint.events import Events
+from tornado.ioloop import IOLoop
+
 from ...host.streamed_job import StreamedJob
 from .connection_methods import connection_methods
 from .gcode_store import GcodeStore
 from .house_methods import house_methods
+from .macro_files import MacroFiles
 from .methods import Methods
 from .moonraker_api import MoonrakerApi
+from .own_port import OwnPort
+from .print_control import PrintControl, print_methods
 from .printer_methods import printer_methods
 from .printer_objects import PrinterObjects
 from .scripts import GcodeScripts
@@ -20,10 +26,8 @@ from .tokens import OneshotTokens
 class Parts(NamedTuple):
     """What others of the plugin's parts do for Moonraker's clients."""
 
-    rate: Any
-    """Counts commands."""
-    command: Callable[..., None]
-    """Queues a command of the machine by its name; ``ValueError`` says why it is refused."""
+    commands: Any
+    """Commands to the machine (``control.machine_commands.MachineCommands``)."""
     samples: Callable[[float], Any]
     """Gives the samples of temperatures that are later than a time of day."""
 
@@ -37,12 +41,13 @@ class Moonraker:
 
     def __init__(self, host, follower, link, *, parts, notify, clock):
         self._host = host
+        self._own_port = None
         self.job = StreamedJob()
         """OctoPrint's own job, which follows its events."""
         self.objects = PrinterObjects(
             follower, link, self.job.job, clock=clock, version=host.version
         )
-        scripts = GcodeScripts(self.objects.is_connected, link, parts.rate)
+        scripts = GcodeScripts(self.objects, link, parts.commands)
         self.store = GcodeStore(link, partial(notify, "line"))
         """What was said on the line; is told of each command that goes out."""
         tokens = OneshotTokens()
@@ -59,14 +64,56 @@ class Moonraker:
                     websocket_count=self.sockets.count,
                     components=lambda: components_of(methods),
                 ),
+                *print_methods(PrintControl(host.printer, link, parts.commands)),
                 *connection_methods(),
                 *house_methods(host, self.objects, self.sockets, tokens, parts),
             )
         )
+        scripts.attach(methods)
         self.api = MoonrakerApi(methods, tokens.redeem, self.sockets.find_user)
 
+    def routes(self, app, folders, questions):
+        """Return what Tornado serves itself; OctoPrint asks on the thread of Tornado's loop.
+
+        ``app`` is OctoPrint's Flask application, ``folders`` are those of the board's card.
+        """
+        loop = IOLoop.current()
+        macros = MacroFiles(self.objects.found_macros, loop, folders, questions=questions)
+        self.objects.attach(macros.wait)
+        routes = self.sockets.routes(app)
+        self._own_port = OwnPort(loop, app, routes, sockets=self.sockets.open)
+        return routes
+
     def start(self):
-        """Begin to listen to OctoPrint."""
+        """Begin to listen to OctoPrint, and to clients on a port of their own."""
         self._host.printer().register_callback(self.job)
         self._host.printer().register_callback(self.store)
         self._host.users().register_login_status_listener(self.sockets)
+        self._look_at_settings()
+
+    def stop(self):
+        """Leave the port."""
+        if self._own_port is not None:
+            self._own_port.look(False, "", 0)
+
+    def on_event(self, event, payload):
+        """Follow OctoPrint's job and the plugin's settings."""
+        self.job.on_event(event, payload)
+        if event == Events.SETTINGS_UPDATED:
+            self._look_at_settings()
+
+    def _look_at_settings(self):
+        if self._own_port is None:
+            return
+        found = self._host.settings().get(["moonraker"], merged=True)
+        # the dialog of settings writes numbers as text
+        port = whole_of(found["port"])
+        self._own_port.look(found["enabled"] is True, found["address"], port)
+
+
+def whole_of(value):
+    """Return a whole number, also of text; anything else as it is."""
+    try:
+        return int(value)
+    except (TypeError, ValueError):
+        return value

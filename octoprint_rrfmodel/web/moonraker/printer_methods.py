@@ -23,7 +23,7 @@ def printer_methods(objects, scripts, store, *, websocket_count, components=list
         return {**objects.server_info(websocket_count()), "components": components()}
 
     def run_script(call):
-        scripts.run(call.params.get("script"))
+        scripts.run(call.params.get("script"), call.caller)
         return "ok"
 
     def stop(call):
@@ -50,7 +50,7 @@ def printer_methods(objects, scripts, store, *, websocket_count, components=list
         ),
         Method("printer.objects.subscribe", subscribe, verbs=("POST",)),
         Method("printer.query_endstops.status", lambda call: endstops(objects)),
-        Method("printer.gcode.help", lambda call: command_help(objects)),
+        Method("printer.gcode.help", lambda call: objects.help_texts()),
         Method("printer.gcode.script", run_script, CONTROL, verbs=("POST",)),
         Method(EMERGENCY_STOP, stop, CONTROL, verbs=("POST",)),
     )
@@ -69,12 +69,6 @@ def endstops(objects):
     found = objects.query({"query_endstops": None})["status"]["query_endstops"]
     states = found.get("last_query") or {}
     return {name: "TRIGGERED" if state else "open" for name, state in states.items()}
-
-
-def command_help(objects):
-    """Return what each command does that the object ``gcode`` knows."""
-    commands = objects.query({"gcode": None})["status"]["gcode"]["commands"]
-    return {name: command["help"] for name, command in commands.items() if "help" in command}
 
 
 def said_lately(call, store):

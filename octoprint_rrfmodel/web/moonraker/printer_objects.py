@@ -4,6 +4,10 @@ import socket
 
 from ...rrf import klipper
 from ...rrf.gcode.doing import OTHER
+from ...rrf.script.help import help_texts
+
+CONFIGURATION = "configfile"
+"""The object that clients take all others from, macros too."""
 
 
 class PrinterObjects:
@@ -20,6 +24,8 @@ class PrinterObjects:
         self._clock = clock
         self._version = version
         self._kept = klipper.Kept()
+        self._macros = ()
+        self._look_for_macros = lambda: None
 
     ##~~ a listener
 
@@ -43,6 +49,17 @@ class PrinterObjects:
         """Know nothing: the connection is gone."""
         self._kept.forget()
 
+    def attach(self, look_for_macros):
+        """Have ``look_for_macros()`` called where somebody asks what there is; it waits a little.
+
+        It brings its news by ``found_macros``.
+        """
+        self._look_for_macros = look_for_macros
+
+    def found_macros(self, paths):
+        """Take the paths of all macro files."""
+        self._macros = paths
+
     ##~~ what others ask
 
     def is_connected(self):
@@ -60,12 +77,20 @@ class PrinterObjects:
 
     def names(self):
         """Return the names of the objects that there are."""
+        self._look_for_macros()
         return klipper.names(self.world())
 
     def query(self, wanted):
         """Return the fields that are wanted, with the time of the answer."""
+        if CONFIGURATION in wanted:
+            self._look_for_macros()
         world = self.world()
         return {"eventtime": world.eventtime, "status": klipper.status(world, wanted)}
+
+    def help_texts(self):
+        """Return what each command does that can be sent as a script."""
+        self._look_for_macros()
+        return help_texts(self.world())
 
     def state(self):
         """Return the printer's state in Klipper's words, ``disconnected`` without a line."""
@@ -87,5 +112,6 @@ class PrinterObjects:
             is_ready=self._follower.ready,
             has_protocol=not self._follower.is_mute,
             job=self._job(),
+            macros=self._macros,
             heights=self._link.height_map,
         )

@@ -1,14 +1,22 @@
-"""G-code that a client sends as text: taken apart, looked at, sent line by line."""
+"""What a client sends as a script: taken apart, looked at as a whole, sent line by line."""
 
 from flask_babel import gettext
 
 from ...host.answers import RequestRefused
+from ...host.macro_texts import macro_text
 from ...host.tags import SCRIPT_TAG
+from ...rrf.gcode.commands.outcome import Refused
+from ...rrf.script.moment import at_moment
+from ...rrf.script.plan import planned
+from ...rrf.script.steps import Asked, Given, Lines, Operation, Restart
+from .methods import Call, run
 
 MOST_LINES = 50
 
 LONGEST_LINE = 200
 """Characters of a line; the firmware's buffer holds 256 bytes (3.5 GCodes.h, MaxGCodeLength)."""
+
+RESTART = "printer.firmware_restart"
 
 
 def lines_of(script):
@@ -40,22 +48,68 @@ def lines_of(script):
 class GcodeScripts:
     """Sends scripts to a connected RepRapFirmware; never waits, so that any thread may call it.
 
-    ``is_connected()`` says whether RepRapFirmware is at the line's other end, ``link`` leads there.
-    ``rate`` counts all commands that others give.
+    ``objects`` are the printer objects, ``link`` leads to the board, ``commands`` are those to the
+    machine (``MachineCommands``).
     """
 
-    def __init__(self, is_connected, link, rate):
-        self._is_connected = is_connected
+    def __init__(self, objects, link, commands):
+        self._objects = objects
         self._link = link
-        self._rate = rate
+        self._commands = commands
+        self._methods = None
 
-    def run(self, script):
-        """Queue the lines of a script; raise ``RequestRefused``."""
+    def attach(self, methods):
+        """Know the methods of Moonraker's that some commands stand for (``Methods``)."""
+        self._methods = methods
+
+    def run(self, script, caller):
+        """Queue the lines of a script; raise ``RequestRefused``, and nothing of it is sent."""
         lines = lines_of(script)
         self._check()
-        if not self._rate.allows(len(lines)):
+        steps = self._planned(lines)
+        first, others = steps[:1], steps[1:]
+        if any(isinstance(step, (Asked, Restart)) for step in others):
+            raise RequestRefused(400, macro_text("macro_order", {}))
+        if others and isinstance(first[0], Restart):
+            raise RequestRefused(400, macro_text("macro_order", {}))
+        lines = [line for step in steps for line in self._lines_of(step)]
+        if not self._commands.rate.allows(len(lines)):
             raise RequestRefused(409, gettext("Too many commands at once. Try again in a second."))
-        self._link.send_later(lines, {SCRIPT_TAG})
+        for step in first:
+            if isinstance(step, Asked):
+                self._ask(step.method, step.params, caller)
+            elif isinstance(step, Restart):
+                self._ask(RESTART, {}, caller)
+        if lines:
+            self._link.send_later(lines, {SCRIPT_TAG})
+
+    def _ask(self, name, params, caller):
+        """Run a method of Moonraker's for whoever sends the script."""
+        found = self._methods.named(name)
+        if found is None:
+            raise RequestRefused(409, gettext("That can't be done here."))
+        run(found, Call(params, caller))
+
+    def _planned(self, lines):
+        at = at_moment(self._objects.world(), self._commands.machine())
+        try:
+            return planned(lines, at)
+        except Refused as refused:
+            refusal = refused.refusal
+            text = macro_text(refusal.code, refusal.values)
+            raise RequestRefused(refusal.status, text) from None
+
+    def _lines_of(self, step):
+        """Return the lines of a step in the forms that the link takes; raise ``RequestRefused``."""
+        if isinstance(step, Given):
+            return [step.line]
+        if isinstance(step, Lines):
+            return self._link.carried(step.lines, self._commands.machine())
+        if isinstance(step, Operation):
+            lines = self._commands.checked(step.name, step.parameters)
+            carried = self._link.carried(lines, self._commands.machine())
+            return [f"{line}{step.behind}" for line in carried]
+        return []
 
     def emergency_stop(self):
         """Stop the machine at once, past all queues; raise ``RequestRefused``."""
@@ -63,5 +117,5 @@ class GcodeScripts:
         self._link.stop_now({SCRIPT_TAG})
 
     def _check(self):
-        if not self._is_connected():
+        if not self._objects.is_connected():
             raise RequestRefused(409, gettext("No printer with RepRapFirmware is connected."))

@@ -55,6 +55,10 @@ class Sockets(LoginStatusListener):
         """Return how many sockets are open."""
         return len(self._hub.sockets) if self._hub is not None else 0
 
+    def open(self):
+        """Return those that are open."""
+        return list(self._hub.sockets) if self._hub is not None else []
+
     def announce(self):
         """Let the sockets see what is new; many calls before they do are one."""
         if self.count() and not self._is_announced:

@@ -4,7 +4,7 @@ import pytest
 
 from octoprint_rrfmodel.rrf.klipper import names
 
-from . import HOST, Machine, get, model_of, whole, world
+from . import HOST, Machine, changed, get, model_of, whole, world
 
 
 def of_kind(at, kind):
@@ -153,16 +153,37 @@ MACROS = HOST._replace(
 )
 
 
-def test_macros_are_named_without_their_ending():
+OF_PRINTS = ["gcode_macro PAUSE", "gcode_macro RESUME", "gcode_macro CANCEL_PRINT"]
+
+
+def test_macros_are_named_so_that_they_can_be_sent():
     at = world({}, MACROS)
     assert of_kind(at, "gcode_macro") == [
+        *OF_PRINTS,
         "gcode_macro Park",
-        "gcode_macro clean nozzle",
-        "gcode_macro sub/level",
+        "gcode_macro clean_nozzle",
+        "gcode_macro sub_level",
         "gcode_macro plain",
+        "gcode_macro globals_",
     ]
-    assert whole(at, "gcode_macro clean nozzle") == {}
-    assert get(at, "gcode_macro clean nozzle", "anything") is None
+    assert whole(at, "gcode_macro clean_nozzle") == {}
+    assert get(at, "gcode_macro clean_nozzle", "anything") is None
+
+
+def test_macros_that_need_no_button_say_so():
+    at = world(model_of("toolchanger"), MACROS)
+    settings = get(at, "configfile", "settings")
+    hidden = {name for name, section in settings.items() if "rename_existing" in section}
+    assert hidden == {*OF_PRINTS, *(f"gcode_macro T{tool}" for tool in (1, 3, 7, 10))}
+    assert settings["gcode_macro PAUSE"] == {"rename_existing": "BASE_PAUSE"}
+    assert "gcode_macro Park" in settings
+
+
+def test_tools_where_there_is_a_choice():
+    model = changed(model_of("toolchanger"), state__currentTool=3)
+    assert get(world(model), "gcode_macro T3", "active") is True
+    assert get(world(model), "gcode_macro T1", "active") is False
+    assert "gcode_macro T0" not in names(world(model_of("cartesian")))
 
 
 def test_global_variables_are_fields():
