@@ -3,8 +3,11 @@
 from functools import partial
 from typing import Any, Callable, NamedTuple
 
+from octoprint.events import eventManager
+
 from ...host.streamed_job import StreamedJob
 from .connection_methods import connection_methods
+from .files import Files
 from .gcode_store import GcodeStore
 from .house_methods import house_methods
 from .methods import Methods
@@ -26,6 +29,10 @@ class Parts(NamedTuple):
     """Queues a command of the machine by its name; ``ValueError`` says why it is refused."""
     samples: Callable[[float], Any]
     """Gives the samples of temperatures that are later than a time of day."""
+    run: Callable[[str, dict[str, Any]], Any]
+    """Queues a command as ``command`` does; returns status and sentence of one that is refused."""
+    jobs: Any
+    """The prints that are over (``web.jobs_api.JobHistory``)."""
 
 
 class Moonraker:
@@ -50,6 +57,8 @@ class Moonraker:
             self.objects, lambda: methods, host.users, clock=clock, redeem=tokens.redeem
         )
         self.job.attach(self.sockets.announce)
+        self.files = Files(host, link, lambda: follower.store.model, parts=parts)
+        self.files.attach(self.sockets.tell)
         methods = Methods(
             (
                 *printer_methods(
@@ -61,12 +70,18 @@ class Moonraker:
                 ),
                 *connection_methods(),
                 *house_methods(host, self.objects, self.sockets, tokens, parts),
+                *self.files.rows(),
             )
         )
         self.api = MoonrakerApi(methods, tokens.redeem, self.sockets.find_user)
 
+    def routes(self, app, thumbnails):
+        """Return what Tornado serves itself; ``thumbnails`` fetches the pictures of the card."""
+        return [*self.sockets.routes(app), *self.files.routes(app, thumbnails)]
+
     def start(self):
         """Begin to listen to OctoPrint."""
+        self.files.subscribe(eventManager())
         self._host.printer().register_callback(self.job)
         self._host.printer().register_callback(self.store)
         self._host.users().register_login_status_listener(self.sockets)

@@ -208,6 +208,13 @@ class SocketHub:
         """Tell the sockets a line that the printer said."""
         self.tell(jsonrpc.notification("notify_gcode_response", [line]))
 
+    def notify(self, method, params, permission):
+        """Tell something to the sockets whose users have a permission."""
+        text = jsonrpc.notification(method, params)
+        for socket in list(self.sockets):
+            if socket.caller.may(permission):
+                socket.send(text)
+
     def logged_out(self, user):
         """Drop the sockets of a session that has ended."""
         for socket in self.sockets:
