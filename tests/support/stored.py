@@ -7,7 +7,6 @@ import octoprint.plugin
 import octoprint.settings
 from octoprint.filemanager.storage import LocalFileStorage
 
-
 PROFILE = {"id": "_default", "name": "Default"}
 
 
