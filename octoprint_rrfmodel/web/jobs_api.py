@@ -134,9 +134,11 @@ class JobHistory:
             self._past.add(job)
         under_way = [job._replace(duration=None) for job in self._under_way()]
         if ended or under_way != self._open:
-            begun = [job for job in under_way if not any(map(job.is_the_same, self._open or ()))]
             self._news += [("finished", job, True) for job in ended]
-            self._news += [("added", job, False) for job in begun]
+            for job in under_way:
+                # the board tells which file it is later than that there is a print
+                if job.path and not any(map(job.is_the_same, self._open or ())):
+                    self._news.append(("added", job, False))
             self._open = under_way
             self._changes += 1
             self._later()

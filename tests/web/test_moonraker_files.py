@@ -78,7 +78,7 @@ class Hall:
         )
         given = SimpleNamespace(jobs=self.jobs, commands=SimpleNamespace(run=self._run))
         self.files = Files(host, self.link, lambda: self.model, given=given)
-        self.files.attach(lambda *told: self.told.append(told))
+        self.files.attach(lambda *told: self.told.append(told), lambda: 1)
         self.methods = Methods(self.files.rows())
 
     def _run(self, name, parameters):

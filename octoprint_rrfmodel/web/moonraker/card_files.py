@@ -13,8 +13,9 @@ from ...rrf.card.thumbnail import best, print_file
 from ...rrf.klipper import print_files as shapes
 from .places import CARD, READ, WRITE
 
-ANSWER_SECONDS = 5.0
-"""How long a client waits for what the board is asked of one file; others wait behind it."""
+ANSWER_SECONDS = 3.0
+"""How long a client waits for what the board is asked of one file; what sockets ask waits behind
+it, and what they are told."""
 
 
 class CardFiles:

@@ -25,6 +25,9 @@ from .places import CARD, below
 
 ROUTE = r"/server/files/(gcodes|printer)/(.+)"
 
+NEEDED = ("PLUGIN_RRFMODEL_READ", "FILES_DOWNLOAD")
+"""OctoPrint's names of the permissions."""
+
 PIECE = 256 * 1024
 
 SHOWN_SECONDS = 300
@@ -35,24 +38,37 @@ class DownloadHandler(WithoutKeys, tornado.web.RequestHandler):
     """Sends a file piece by piece.
 
     ``roots`` are ``Roots``, ``thumbnails`` the board's ``Thumbnails``, ``app`` is OctoPrint's Flask
-    application, which knows users. ``executor`` reads disks.
+    application, which knows users, ``redeem(token)`` gives whom a token stands for. ``executor``
+    reads disks.
     """
 
-    def initialize(self, roots, thumbnails, app, executor):
+    def initialize(self, roots, thumbnails, app, redeem, executor):
         """Take what Tornado hands over from the route."""
         self._roots = roots
         self._thumbnails = thumbnails
         self._app = app
+        self._redeem = redeem
         self._executor = executor
 
     def prepare(self):
         """Let in who may have files; a deletion is Flask's, which looks at it by itself."""
-        if self.request.method == "DELETE":
-            return
-        try:
-            access_validation_factory(self._app, _may_download)(self.request)
-        except tornado.web.HTTPError:
+        if self.request.method != "DELETE" and not self._may_download():
             self._refuse(403, gettext("You may not do that. Ask an administrator."))
+
+    def _may_download(self):
+        token = self.get_query_argument("token", None)
+        if token is not None:
+            caller = self._redeem(token)
+            return caller is not None and all(map(caller.may, NEEDED))
+        try:
+            access_validation_factory(self._app, _validator)(self.request)
+        except tornado.web.HTTPError:
+            return False
+        return True
+
+    def write_error(self, status_code, **kwargs):
+        """Tell what Tornado itself refuses, in the form of all errors here."""
+        self.finish({"error": {"code": status_code, "message": f"{self._reason}."}})
 
     async def head(self, root, path):
         """Answer with the headers alone."""
@@ -132,17 +148,18 @@ class DownloadHandler(WithoutKeys, tornado.web.RequestHandler):
         self.finish({"error": {"code": status, "message": text}})
 
 
-def routes(roots, thumbnails, app):
+def routes(roots, thumbnails, app, redeem):
     """Return what Tornado serves."""
     given = {
         "roots": roots,
         "thumbnails": thumbnails,
         "app": app,
+        "redeem": redeem,
         "executor": ThreadPoolExecutor(4, "rrfmodel.files"),
     }
     return [(ROUTE, DownloadHandler, given)]
 
 
-def _may_download(request):
-    for name in ("PLUGIN_RRFMODEL_READ", "FILES_DOWNLOAD"):
+def _validator(request):
+    for name in NEEDED:
         permission_validator(request, getattr(Permissions, name))

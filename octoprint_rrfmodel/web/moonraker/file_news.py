@@ -22,12 +22,15 @@ MOVE = "move"
 
 
 class FileNews:
-    """Tells the sockets; ``item(place)`` is what is told of a file, ``tell(method, params,
-    permission)`` tells it to those who may know."""
+    """Tells the sockets by ``tell(method, params, permission)``.
 
-    def __init__(self, item, tell):
+    ``item(place)`` is what is told of a file, ``count()`` how many sockets there are.
+    """
+
+    def __init__(self, item, tell, count):
         self._item = item
         self._tell = tell
+        self._count = count
 
     def subscribe(self, events):
         """Begin to hear OctoPrint's events (``octoprint.events.EventManager``)."""
@@ -36,7 +39,7 @@ class FileNews:
 
     def on_event(self, event, payload):
         """Tell of a change (OctoPrint's callback, on the thread of its events)."""
-        if payload.get("operation") == MOVE:
+        if payload.get("operation") == MOVE or not self._count():
             return
         root = GCODES if payload.get("storage") == LOCAL else CARD
         names = ("destination_path", "source_path") if event in MOVED else ("path",)

@@ -39,18 +39,19 @@ class Files:
         """Return the rows of all."""
         return [row for part in self._parts for row in part.rows()]
 
-    def routes(self, app, thumbnails):
+    def routes(self, app, thumbnails, redeem):
         """Return what Tornado serves itself; OctoPrint asks on the thread of Tornado's loop."""
         self._card.attach(thumbnails, IOLoop.current())
-        return downloads.routes(self._roots, thumbnails, app)
+        return downloads.routes(self._roots, thumbnails, app, redeem)
 
-    def attach(self, tell):
-        """Have sockets told of news by ``tell(method, params, permission)``."""
-        self._news = FileNews(self._roots.item, tell)
+    def attach(self, tell, count):
+        """Have ``count()`` sockets told of news by ``tell(method, params, permission)``."""
+        self._news = FileNews(self._roots.item, tell, count)
 
         def tell_of_job(action, job, is_over):
-            told = {"action": action, "job": self._history.told(job, is_over)}
-            tell(NOTIFY_HISTORY, [told], "PLUGIN_RRFMODEL_READ")
+            if count():
+                told = {"action": action, "job": self._history.told(job, is_over)}
+                tell(NOTIFY_HISTORY, [told], "PLUGIN_RRFMODEL_READ")
 
         self._jobs.attach(tell_of_job)
 

@@ -52,13 +52,13 @@ class Moonraker:
         scripts = GcodeScripts(self.objects.is_connected, link, parts.rate)
         self.store = GcodeStore(link, partial(notify, "line"))
         """What was said on the line; is told of each command that goes out."""
-        tokens = OneshotTokens()
+        tokens = self._tokens = OneshotTokens()
         self.sockets = Sockets(
             self.objects, lambda: methods, host.users, clock=clock, redeem=tokens.redeem
         )
         self.job.attach(self.sockets.announce)
         self.files = Files(host, link, lambda: follower.store.model, parts=parts)
-        self.files.attach(self.sockets.tell)
+        self.files.attach(self.sockets.tell, self.sockets.count)
         methods = Methods(
             (
                 *printer_methods(
@@ -77,7 +77,8 @@ class Moonraker:
 
     def routes(self, app, thumbnails):
         """Return what Tornado serves itself; ``thumbnails`` fetches the pictures of the card."""
-        return [*self.sockets.routes(app), *self.files.routes(app, thumbnails)]
+        files = self.files.routes(app, thumbnails, self._tokens.redeem)
+        return [*self.sockets.routes(app), *files]
 
     def start(self):
         """Begin to listen to OctoPrint."""
