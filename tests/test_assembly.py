@@ -66,6 +66,7 @@ def test_every_hook_has_its_handler(parts):
         parts=parts,
         before_request=lambda: None,
         body_sizes=lambda current: [],
+        update_check=lambda: {},
         routes=lambda server_routes: [],
     )
     handlers = [

@@ -76,8 +76,8 @@ class Hall:
             printer=lambda: self.printer,
             fire=lambda event, payload: self.events.append((event, payload)),
         )
-        given = SimpleNamespace(jobs=self.jobs, commands=SimpleNamespace(run=self._run))
-        self.files = Files(host, self.link, lambda: self.model, given=given)
+        parts = SimpleNamespace(jobs=self.jobs, run=self._run)
+        self.files = Files(host, self.link, lambda: self.model, parts=parts)
         self.files.attach(lambda *told: self.told.append(told), lambda: 1)
         self.methods = Methods(self.files.rows())
 

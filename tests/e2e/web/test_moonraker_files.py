@@ -132,7 +132,12 @@ def test_who_may(server):
         assert_refused(as_user(server, READER, method, address, **options), 403)
         # nobody has no token either, which OctoPrint sees first
         assert as_user(server, None, method, address, **options).status_code in (400, 403)
-    # a page of another site has no token
+    # a token stands for who has asked for it, once
+    token = as_user(server, OPERATOR, "GET", "/plugin/rrfmodel/access/oneshot_token").json()
+    for expected in (200, 403):
+        response = as_user(server, None, "GET", f"{path}?token={token['result']}")
+        assert response.status_code == expected
+    # a page of another site has none that OctoPrint asks for
     with server.session(ADMIN) as client:
         token = client.headers.pop("X-CSRF-Token")
         assert client.delete(path).status_code == 400
