@@ -132,22 +132,22 @@ class Assembly:
 
     def _make_web(self):
         host, model, known = self._host, self._known.model, self._known
-        # made below, and asked only later
-        job = lambda: self.moonraker.job.job()  # noqa: E731
-        prints = self.prints = Prints(host, model, self._links, sent=job)
+        # what is made below is asked only later
+        self.prints = Prints(host, model, self._links, sent=lambda: self.moonraker.job.job())
         told = {"warnings": self._all_warnings, "is_first_run": self.setup.is_first_run}
         notes = {"notify": self.worker.notify, "clock": self._clock}
         self.beside = Beside(host.settings, self._links, known, **notes)
         self.link.beside = BesideFiles(self.beside, model, host.folder, clock=self._clock)
-        told.update(heater_ages=self._heater_ages, simulated_file=self._simulation, **prints.told)
-        told["beside"] = self.beside.is_found
+        told.update(heater_ages=self._heater_ages, simulated_file=self._simulation)
+        told.update(self.prints.told, beside=self.beside.is_found)
         self.status = PluginStatus(host.version, self._links, self._poller, known=known, **told)
-        parts = Parts(self._commands, lambda time: self.history.samples(time))
+        samples = lambda time: self.history.samples(time)  # noqa: E731
+        parts = Parts(self._commands, samples, self.prints.jobs)
         self.moonraker = Moonraker(host, self._follower, self._links, parts=parts, **notes)
         subscribers = self._plugin_subscribers = PluginSubscribers(host.plugins, model)
         self._audience = Audience(self._interest, self.moonraker.sockets.count, subscribers.paths)
         self.api = ModelApi(model, self.status, self._links, audience=self._audience)
-        looks = {"audience": self._audience, "streamed": prints.layers}
+        looks = {"audience": self._audience, "streamed": self.prints.layers}
         self.history = MachineHistory(model, self._poller.is_stale, **looks)
         self.console = Console(self.moonraker.store, self._pages, self._clock)
         self._push = ModelPush(self._pages, model, self.status, clock=self._clock)

@@ -24,6 +24,7 @@ def hooks_of(plugin):
         "octoprint.plugin.softwareupdate.check_config": plugin.update_check,
         "octoprint.printer.sdcardupload": parts.uploads.on_upload,
         "octoprint.server.api.before_request": plugin.before_request,
+        "octoprint.server.http.bodysize": plugin.body_sizes,
         "octoprint.server.http.routes": plugin.routes,
         "octoprint.server.sockjs.emit": parts.terminal.on_emit,
         "octoprint.access.permissions": permissions,

@@ -56,6 +56,7 @@ class RrfModelPlugin(
                 version=lambda: self._plugin_version,
                 fire=eventManager().fire,
                 tell_pages=self._tell_pages,
+                files=lambda: self._file_manager,
                 path_on_disk=lambda path: self._file_manager.path_on_disk("local", path),
             )
         )
@@ -173,6 +174,7 @@ class RrfModelPlugin(
         live = {"questions": questions, "app": app}
         files = {**live, "files": self.parts.machine_files}
         folders = Folders(questions.ask_about_the_card, questions.changes_of_the_card)
+        thumbnails = Thumbnails(questions, model)
         return [
             (r"/model/live", LiveModelHandler, live),
             (r"/heightmap", HeightMapHandler, live),
@@ -180,14 +182,21 @@ class RrfModelPlugin(
             (r"/machine_files", MachineFilesHandler, files),
             (r"/machine_file", MachineFileHandler, files),
             (r"/files", FolderHandler, {**live, "folders": folders}),
-            (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": Thumbnails(questions, model)}),
-            *self.parts.moonraker.routes(app, folders, questions),
+            (r"/thumbnail", ThumbnailHandler, {**live, "thumbnails": thumbnails}),
+            *self.parts.moonraker.routes(app, folders, thumbnails, questions),
         ]
 
     ##~~ octoprint.plugin.softwareupdate.check_config
 
     def update_check(self, *args, **kwargs):
         return update_check(self._identifier, self._plugin_name, self._plugin_version)
+
+    ##~~ octoprint.server.http.bodysize
+
+    def body_sizes(self, current, *args, **kwargs):
+        """Return how large uploads in Moonraker's form may be: as large as OctoPrint's own."""
+        largest = self._settings.global_get_int(["server", "uploads", "maxSize"])
+        return [("POST", r"/server/files/upload", largest)]
 
     ##~~ octoprint.server.api.before_request
 

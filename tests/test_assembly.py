@@ -63,7 +63,11 @@ def test_a_round_without_a_board_goes_through_every_listener(parts, caplog):
 
 def test_every_hook_has_its_handler(parts):
     plugin = SimpleNamespace(
-        parts=parts, before_request=lambda: None, routes=lambda server_routes: []
+        parts=parts,
+        before_request=lambda: None,
+        body_sizes=lambda current: [],
+        update_check=lambda: {},
+        routes=lambda server_routes: [],
     )
     handlers = [
         handler[0] if isinstance(handler, tuple) else handler

@@ -23,6 +23,8 @@ class Host(NamedTuple):
     """Fires an event."""
     tell_pages: Callable[[dict], Any]
     """Sends a message to the pages of those who may read the model."""
+    files: Callable[[], Any]
+    """The file manager."""
     path_on_disk: Callable[[str], str]
     """Where a file of OctoPrint's own is kept."""
 

@@ -55,8 +55,15 @@ class Link(abc.ABC):
     height_map = None
     """The mesh in use (``rrf.card.height_map.HeightMap``), ``None`` where nobody has read it."""
 
+    card = None
+    """What is known of the board's card: ``listed()``, ``folders``, ``facts_of(path)``."""
+
     expects_refusal = False
     """Whether to look for the text that says that a polling command isn't known."""
+
+    def attach(self, card):
+        """Take what knows the card, which asks this link and so is made later."""
+        self.card = card
 
     @property
     def is_rrf(self):

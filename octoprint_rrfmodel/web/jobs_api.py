@@ -50,6 +50,15 @@ class JobHistory:
         self._open = None
         # another one after a restart, too
         self._changes = int(now())
+        self._news = []
+        self._tell = None
+
+    def attach(self, tell):
+        """Have ``tell(action, job, is_over)`` called where one has begun or ended.
+
+        By the thread that may wait; ``action`` is ``added`` or ``finished``.
+        """
+        self._tell = tell
 
     def load(self):
         """Take what was kept, before anything is noted.
@@ -125,6 +134,11 @@ class JobHistory:
             self._past.add(job)
         under_way = [job._replace(duration=None) for job in self._under_way()]
         if ended or under_way != self._open:
+            self._news += [("finished", job, True) for job in ended]
+            for job in under_way:
+                # the board tells which file it is later than that there is a print
+                if job.path and not any(map(job.is_the_same, self._open or ())):
+                    self._news.append(("added", job, False))
             self._open = under_way
             self._changes += 1
             self._later()
@@ -135,9 +149,29 @@ class JobHistory:
         """Write down what is known now."""
         with self._lock:
             jobs, under_way = self._past.all(), self._open or []
+            news, self._news = self._news, []
         self._kept.write({"jobs": list(map(written, jobs)), "open": list(map(written, under_way))})
 
+        for each in news if self._tell else ():
+            self._tell(*each)
+
     ##~~ any thread
+
+    def all(self):
+        """Return the prints, the last one first, each with whether it is over."""
+        with self._lock:
+            under_way, over = self._under_way(), self._past.latest()
+        return [(job, False) for job in under_way] + [(job, True) for job in over]
+
+    def forget(self, fits):
+        """Keep those that are over no longer for which ``fits(job)`` holds; return them."""
+        with self._lock:
+            gone = [job for job in self._past.latest() if fits(job)]
+            self._past.remove(gone)
+            if gone:
+                self._changes += 1
+                self._later()
+        return gone
 
     def changes(self):
         """Return another number after each change of what is told."""

@@ -66,6 +66,17 @@ class Thumbnails:
             task.add_done_callback(lambda _: self._fetching.pop(path))
         return self._shown(await asyncio.shield(self._fetching[path]))
 
+    async def facts(self, path):
+        """Return what the board has read from a file (``PrintFile``); ``RequestRefused``."""
+        file = self._known(path)
+        if file is None:
+            reason = self._questions.refusal_of_the_card()
+            if reason:
+                raise RequestRefused(409, reason)
+            async with self._turn:
+                file = self._known(path) or await self._file(path)
+        return file
+
     def _key(self, path, file):
         """Return what tells a picture from others, those of other machines too."""
         return (self._questions.connections(), path.lower(), *file[:2])

@@ -279,14 +279,3 @@ CLIENTS = (
         {"server.info": ("klippy_state",), "printer.objects.subscribe": ("status",)},
     ),
 )
-
-WAITED_FOR = frozenset(
-    (
-        "server.files.get_directory",
-        "server.files.list",
-        "server.files.roots",
-        "server.history.list",
-        "server.history.totals",
-    )
-)
-"""Methods that are not there yet; one that has come has to be taken out."""

@@ -159,6 +159,8 @@ METHODS = st.sampled_from(
         *("server.info", "server.connection.identify", "printer.info", "printer.objects.list"),
         *("printer.objects.query", "printer.objects.subscribe", "nothing", ""),
         *("server.database.get_item", "server.database.post_item", "server.webcams.get_item"),
+        *("server.files.get_directory", "server.files.metadata", "server.files.post_directory"),
+        *("server.history.list", "server.history.delete_job", "printer.print.start"),
         *("machine.device_power.post_device", "access.oneshot_token", "access.login"),
     ]
 )

@@ -41,6 +41,9 @@ OWN_ROUTES = [
     ),
     *("/server/database/item", "/server/database/list", "/server/webcams/item"),
     *("/machine/device_power/device", "/machine/proc_stats", "/server/temperature_store"),
+    *("/server/files/directory", "/server/files/metadata", "/server/files/move"),
+    *("/server/files/upload", "/server/files/gcodes/a.gcode", "/server/history/job"),
+    *("/printer/print/start", "/printer/print/cancel"),
     *("/access/info", "/access/user", "/access/oneshot_token", "/nothing"),
 ]
 
@@ -52,7 +55,7 @@ PATHS = st.sampled_from(["0:/gcodes", "0:/macros/../sys", "a.g", '"', "0:/\n M11
 
 PARAMETERS = st.dictionaries(
     st.sampled_from(["key", "flags", "path", "count", "since", "toolhead", "extruder", "script"])
-    | st.sampled_from(["namespace", "value", "value:json", "device", "uid", "token"])
+    | st.sampled_from(["namespace", "value", "value:json", "device", "uid", "token", "filename"])
     | st.text(max_size=4),
     KEYS | FLAGS | PATHS | st.integers().map(str) | st.text(max_size=12),
     max_size=4,

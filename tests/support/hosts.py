@@ -7,7 +7,7 @@ def host_of(folder, nothing, settings, **members):
     """Return a host of ``settings`` and a folder; ``nothing`` stands for all but ``members``."""
     return Host(
         **{
-            **dict.fromkeys(("printer", "profiles", "plugins", "users"), lambda: nothing),
+            **dict.fromkeys(("printer", "profiles", "plugins", "users", "files"), lambda: nothing),
             "settings": lambda: settings,
             "folder": lambda: str(folder),
             "version": lambda: "0",

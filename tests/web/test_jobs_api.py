@@ -177,3 +177,32 @@ def test_a_file_without_layers_tells_none(tmp_path):
 
 def test_what_is_kept_has_a_name():
     assert PastJob("card", FILE, 1.0).name == "a.gcode"
+
+
+def test_news_of_prints(hall):
+    told = []
+    hall.jobs.attach(lambda action, job, is_over: told.append((action, job.path, is_over)))
+    hall.jobs.on_event("PrintStarted", LOCAL)
+    hall.write()
+    assert told == [("added", "a.gcode", False)]
+    hall.now += 10
+    hall.jobs.on_event("PrintDone", {**LOCAL, "time": 10})
+    hall.write()
+    assert told[1:] == [("finished", "a.gcode", True)]
+    hall.write()
+    assert len(told) == 2
+
+
+def test_prints_are_forgotten(hall):
+    for name in ("a.gcode", "b.gcode"):
+        hall.now += 10
+        hall.jobs.on_event("PrintStarted", {**LOCAL, "path": name})
+        hall.jobs.on_event("PrintDone", {"time": 1})
+    hall.jobs.on_event("PrintStarted", {**LOCAL, "path": "c.gcode"})
+    names = [(job.path, is_over) for job, is_over in hall.jobs.all()]
+    assert names == [("c.gcode", False), ("b.gcode", True), ("a.gcode", True)]
+    gone = hall.jobs.forget(lambda job: job.path != "b.gcode")
+    assert [job.path for job in gone] == ["a.gcode"]
+    assert hall.jobs.forget(lambda job: job.path == "a.gcode") == []
+    hall.begin()
+    assert [job.path for job, _ in hall.jobs.all()] == ["c.gcode", "b.gcode"]

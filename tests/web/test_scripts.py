@@ -11,10 +11,8 @@ from octoprint_rrfmodel.host.answers import RequestRefused
 from octoprint_rrfmodel.rrf.script import refusals
 from octoprint_rrfmodel.rrf.views.machine import Machine
 from octoprint_rrfmodel.web.moonraker.methods import Method, Methods
-from octoprint_rrfmodel.web.moonraker.print_control import PrintControl
 from octoprint_rrfmodel.web.moonraker.scripts import GcodeScripts
 from tests.rrf.klipper import HOST, model_of, world
-from tests.support.waiting import wait_for
 
 
 class Bench:
@@ -102,53 +100,3 @@ def test_lines_that_a_command_stands_for_count(bench):
     bench.run("\n".join(["TURN_OFF_HEATERS"] * 20))
     with pytest.raises(RequestRefused, match="Too many"):
         bench.run("\n".join(["TURN_OFF_HEATERS"] * 20))
-
-
-# prints
-
-
-class Printer:
-    def __init__(self, prints, is_paused):
-        self.done = []
-        self.is_printing = lambda: prints
-        self.is_paused = lambda: is_paused
-        for action in ("pause", "resume", "cancel"):
-            name = f"{action}_print"
-            setattr(self, name, lambda name=name: self.done.append(name))
-
-
-def controlled(action, prints=True, is_paused=False, may=("PRINT",), streams=True):
-    printer = Printer(prints, is_paused)
-    commands = SimpleNamespace(
-        checked=lambda name, parameters: [],
-        run=lambda name, parameters: printer.done.append((name, parameters)),
-    )
-    link = SimpleNamespace(has_a_print=lambda: streams)
-    call = SimpleNamespace(caller=SimpleNamespace(may=lambda permission: permission in may))
-    assert PrintControl(lambda: printer, link, commands).control(action, call) == "ok"
-    wait_for(lambda: printer.done, 10, "what was asked for")
-    return printer.done
-
-
-def test_octoprint_s_own_print():
-    assert controlled("pause") == ["pause_print"]
-    assert controlled("resume", prints=False, is_paused=True) == ["resume_print"]
-    assert controlled("cancel", prints=False, is_paused=True) == ["cancel_print"]
-
-
-def test_the_board_s_job_needs_no_permission_of_octoprint_s():
-    assert controlled("pause", may=(), streams=False) == [("job", {"action": "pause"})]
-
-
-@pytest.mark.parametrize(
-    "action, options, status",
-    [
-        ("pause", {"may": ()}, 403),
-        ("pause", {"is_paused": True}, 409),
-        ("resume", {}, 409),
-    ],
-)
-def test_what_does_not_fit_is_refused(action, options, status):
-    with pytest.raises(RequestRefused, match=r"\.$") as refused:
-        controlled(action, **options)
-    assert refused.value.status == status

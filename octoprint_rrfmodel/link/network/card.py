@@ -51,6 +51,15 @@ class Card:
             return None
         return self.files.get(f"{ROOT}/{name.strip('/')}")
 
+    def listed(self):
+        """Return the files on the card (``CardFile``), as far as they are known; any thread."""
+        return tuple(self.files.values()) if self._link.exchange is not None else ()
+
+    def facts_of(self, path):
+        """Return what the board has read from a file, ``None`` where it wasn't asked yet."""
+        known = self.details.known.get(path)
+        return known.members if known else None
+
     def look(self):
         """Fetch the list again where the model says that it is another one."""
         self._plan.observe(self._model())

@@ -46,6 +46,7 @@ class Network:
             sent=sent,
         )
         self.card = Card(self.link, known.model, host.folder)
+        self.link.attach(self.card)
         self.machine_files = MachineFiles(self.link, self.card, known.model)
 
     def stop(self):

@@ -77,6 +77,18 @@ class SdCard:
         """What is on the card; without sizes and dates until, and unless, the board tells them."""
         return self._plan.index or self._plain
 
+    folders = ()
+    """Over a line none are known but those that files are in."""
+
+    def listed(self):
+        """Return the files on the card (``CardFile``), as far as they are known; any thread."""
+        index = self._index
+        return tuple(index.files.values()) if index else ()
+
+    def facts_of(self, path):
+        """Return what the board has read from a file: nothing, it has to be asked."""
+        return None
+
     def identified(self):
         """Begin with a board that has just told that it runs RepRapFirmware."""
         self._plan.forget()

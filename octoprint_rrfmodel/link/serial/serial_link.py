@@ -53,7 +53,6 @@ class SerialLink(Link):
         self.clock = clock
         self.later = later or (lambda function, *arguments: function(*arguments))
         self._notify = notify
-        self._card = None
         self.beside = None
         """What reads the board's height map over its network, ``None`` for nobody."""
         self._last = None
@@ -65,10 +64,6 @@ class SerialLink(Link):
         self.was_identified = threading.Event()
         """Set when a board tells what it is; a restart waits for that."""
         self.forget()
-
-    def attach(self, card):
-        """Take the card (``SdCard``), which asks this link and so is made later."""
-        self._card = card
 
     def forget(self):
         self.connection = None
@@ -279,10 +274,10 @@ class SerialLink(Link):
         return self.connection is not None and self.connection.isPaused()
 
     def control_card_job(self, action):
-        return control_card_job(action, self.connection, self._printer(), self._card)
+        return control_card_job(action, self.connection, self._printer(), self.card)
 
     def end_job(self):
-        return self._card.end_job()
+        return self.card.end_job()
 
     def has_card(self):
         comm = self.connection

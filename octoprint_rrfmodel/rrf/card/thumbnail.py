@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 import struct
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ..wire.reply import MalformedReply, members_of
@@ -39,11 +40,13 @@ class Thumbnail(NamedTuple):
 
 
 class PrintFile(NamedTuple):
-    """What ``M36`` and ``job.file`` tell of a file, as far as its pictures go."""
+    """What ``M36`` and ``job.file`` tell of a file."""
 
     size: int
     date: str
     thumbnails: tuple[Thumbnail, ...]
+    told: Mapping[str, Any] = MappingProxyType({})
+    """All that is told."""
 
 
 class Piece(NamedTuple):
@@ -74,6 +77,7 @@ def print_file(members: Any) -> PrintFile | None:
         size if type(size) is int else 0,
         date if isinstance(date, str) else "",
         tuple(_thumbnails(found if isinstance(found, list) else ())),
+        members,
     )
 
 

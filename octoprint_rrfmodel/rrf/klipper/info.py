@@ -21,7 +21,7 @@ def server_info(world: World, websocket_count: int, version: str) -> dict[str, A
         "klippy_state": klippy_state(seen(world))[0] if is_connected else "disconnected",
         "components": [],
         "failed_components": [],
-        "registered_directories": [],
+        "registered_directories": ["gcodes", "printer"],
         "warnings": [],
         "websocket_count": websocket_count,
         "moonraker_version": version,

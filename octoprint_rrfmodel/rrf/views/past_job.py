@@ -58,6 +58,11 @@ class PastJobs:
                 return
         self._kept.append(job)
 
+    def remove(self, jobs: Iterable[PastJob]) -> None:
+        """Keep some no longer."""
+        for job in jobs:
+            self._kept.remove(job)
+
     def latest(self) -> list[PastJob]:
         """Return them, the last one first."""
         return list(reversed(self._kept))

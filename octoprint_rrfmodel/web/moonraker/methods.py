@@ -20,6 +20,17 @@ VERBS = ("get", "post", "delete")
 EVERYBODY = ""
 """The permission of what may be called by anybody, without one."""
 
+CONTROL = "PLUGIN_RRFMODEL_CONTROL"
+
+
+class Upload(NamedTuple):
+    """A file that came with a request; it is gone when the request is answered."""
+
+    name: str
+    """As the client has it."""
+    path: str
+    """Where on this disk it lies."""
+
 
 class Call:
     """One call of a method: what it was given, and by whom.
@@ -30,10 +41,18 @@ class Call:
     raise ``RequestRefused`` for what is of the wrong kind.
     """
 
+    upload: Upload | None = None
+    """What came with it, over HTTP."""
+
     def __init__(self, params: dict[str, Any], caller: Any, socket: Any = None) -> None:
         self.params = params
         self.caller = caller
         self.socket = socket
+
+    def needs(self, permission: str) -> None:
+        """Refuse it to a user who hasn't one of OctoPrint's permissions, by its name."""
+        if not self.caller.may(permission):
+            raise RequestRefused(403, gettext("You may not do that. Ask an administrator."))
 
     def text(self, name: str, otherwise: str | None = None) -> str:
         """Return a text; refused where it is missing and there is nothing instead."""
@@ -80,6 +99,10 @@ class Method(NamedTuple):
     """OctoPrint's name of what the user needs, or ``EVERYBODY``."""
     verbs: tuple[str, ...] = ()
     """Of HTTP, where the name says none and it isn't only GET."""
+    status: int = 200
+    """Of HTTP, where all is well."""
+    below: str = ""
+    """A path below which the rest of an address is its parameter ``path``."""
 
     @property
     def address(self) -> tuple[str, str]:
@@ -110,6 +133,14 @@ class Methods:
     def at(self, verb: str, path: str) -> Method | None:
         """Return a method by HTTP's verb and path, without a slash at its ends."""
         return self._by_address.get((verb, path))
+
+    def below(self, verb: str, path: str) -> tuple[Method, str] | None:
+        """Return a method whose parameter is in the path, and that parameter."""
+        for row in self._by_name.values():
+            begin = f"{row.below}/"
+            if row.below and verb in row.verbs and path.startswith(begin):
+                return row, path[len(begin) :]
+        return None
 
     def verbs_of(self, path: str) -> list[str]:
         """Return the verbs that a path can be asked with."""

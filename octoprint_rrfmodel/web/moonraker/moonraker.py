@@ -3,20 +3,21 @@
 from functools import partial
 from typing import Any, Callable, NamedTuple
 
-from octoprint.events import Events
+from octoprint.events import Events, eventManager
 from tornado.ioloop import IOLoop
 
 from ...host.streamed_job import StreamedJob
 from .connection_methods import connection_methods
+from .files import Files
 from .gcode_store import GcodeStore
 from .house_methods import house_methods
 from .macro_files import MacroFiles
 from .methods import Methods
 from .moonraker_api import MoonrakerApi
 from .own_port import OwnPort
-from .print_control import PrintControl, print_methods
 from .printer_methods import printer_methods
 from .printer_objects import PrinterObjects
+from .restart_methods import restart_methods
 from .scripts import GcodeScripts
 from .server_methods import components_of
 from .sockets import Sockets
@@ -30,6 +31,8 @@ class Parts(NamedTuple):
     """Commands to the machine (``control.machine_commands.MachineCommands``)."""
     samples: Callable[[float], Any]
     """Gives the samples of temperatures that are later than a time of day."""
+    jobs: Any
+    """The prints that are over (``web.jobs_api.JobHistory``)."""
 
 
 class Moonraker:
@@ -50,11 +53,13 @@ class Moonraker:
         scripts = GcodeScripts(self.objects, link, parts.commands)
         self.store = GcodeStore(link, partial(notify, "line"))
         """What was said on the line; is told of each command that goes out."""
-        tokens = OneshotTokens()
+        tokens = self._tokens = OneshotTokens()
         self.sockets = Sockets(
             self.objects, lambda: methods, host.users, clock=clock, redeem=tokens.redeem
         )
         self.job.attach(self.sockets.announce)
+        self.files = Files(host, link, lambda: follower.store.model, parts=parts)
+        self.files.attach(self.sockets.tell, self.sockets.count)
         methods = Methods(
             (
                 *printer_methods(
@@ -64,28 +69,32 @@ class Moonraker:
                     websocket_count=self.sockets.count,
                     components=lambda: components_of(methods),
                 ),
-                *print_methods(PrintControl(host.printer, link, parts.commands)),
+                *restart_methods(parts.commands),
                 *connection_methods(),
                 *house_methods(host, self.objects, self.sockets, tokens, parts),
+                *self.files.rows(),
             )
         )
         scripts.attach(methods)
         self.api = MoonrakerApi(methods, tokens.redeem, self.sockets.find_user)
 
-    def routes(self, app, folders, questions):
+    def routes(self, app, folders, thumbnails, questions):
         """Return what Tornado serves itself; OctoPrint asks on the thread of Tornado's loop.
 
-        ``app`` is OctoPrint's Flask application, ``folders`` are those of the board's card.
+        ``app`` is OctoPrint's Flask application, ``folders`` are those of the board's card and
+        ``thumbnails`` its pictures.
         """
         loop = IOLoop.current()
         macros = MacroFiles(self.objects.found_macros, loop, folders, questions=questions)
         self.objects.attach(macros.wait)
-        routes = self.sockets.routes(app)
+        files = self.files.routes(app, thumbnails, self._tokens.redeem)
+        routes = [*self.sockets.routes(app), *files]
         self._own_port = OwnPort(loop, app, routes, sockets=self.sockets.open)
         return routes
 
     def start(self):
         """Begin to listen to OctoPrint, and to clients on a port of their own."""
+        self.files.subscribe(eventManager())
         self._host.printer().register_callback(self.job)
         self._host.printer().register_callback(self.store)
         self._host.users().register_login_status_listener(self.sockets)

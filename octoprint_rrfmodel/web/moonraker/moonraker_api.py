@@ -6,11 +6,14 @@ import flask
 import flask_login
 from flask_babel import gettext
 from octoprint.access.permissions import Permissions
+from octoprint.settings import settings
 
 from ...host.answers import RequestRefused, answer
 from ...host.request_json import json_of
 from ..access import caller_of_flask
-from .methods import Call, run
+from .methods import Call, Upload, run
+
+MULTIPART = "multipart/form-data"
 
 TOKEN_ARGUMENT = "token"
 """The argument that stands for a user once."""
@@ -73,11 +76,16 @@ class MoonrakerApi:
     def respond(self, path):
         """Return the answer to the request that Flask has, at a path below the prefix."""
         verb = flask.request.method
-        method = self._methods.at("GET" if verb == "HEAD" else verb, path)
+        method, more = self._methods.at("GET" if verb == "HEAD" else verb, path), {}
+        if method is None:
+            method, rest = self._methods.below(verb, path) or (None, "")
+            more = {"path": rest}
         try:
             if method is None:
                 return self._unknown(path)
-            return answer({"result": run(method, Call(_params(path), self._caller()))})
+            call = Call({**_params(path), **more}, self._caller())
+            call.upload = _upload()
+            return answer({"result": run(method, call)}, method.status)
         except RequestRefused as error:
             return failure(error.status, str(error))
 
@@ -111,13 +119,34 @@ def _params(path):
     arguments = {
         name: value for name, value in flask.request.args.items() if name not in NO_PARAMETERS
     }
-    # OctoPrint's server hands on no body of other requests
-    body = json_of(flask.request, force=True) if flask.request.method == "POST" else None
-    body = body if isinstance(body, dict) else {}
+    body = _body()
     if path == OBJECTS and flask.request.method != "POST":
         fields = {name: value.split(",") if value else None for name, value in arguments.items()}
         return {"objects": fields}
     return {**body, **dict(_hinted(name, value) for name, value in arguments.items())}
+
+
+def _body():
+    if flask.request.mimetype == MULTIPART:
+        return {
+            name: value for name, value in flask.request.form.items() if name not in NO_PARAMETERS
+        }
+    # OctoPrint's server hands on no body of other requests
+    body = json_of(flask.request, force=True) if flask.request.method == "POST" else None
+    return body if isinstance(body, dict) else {}
+
+
+def _upload():
+    """Return the file that came with the request, ``None`` where none did.
+
+    OctoPrint's server has put it on the disk piece by piece, and refuses members of those names
+    from anybody else; only of a form, and so only a form's are believed.
+    """
+    if flask.request.mimetype != MULTIPART:
+        return None
+    form, uploads = flask.request.form, settings().get(["server", "uploads"], merged=True)
+    name, path = (form.get(f"file.{uploads[kind]}") for kind in ("nameSuffix", "pathSuffix"))
+    return Upload(name, path) if name and path else None
 
 
 def _hinted(name, value):

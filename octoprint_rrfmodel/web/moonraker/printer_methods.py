@@ -5,9 +5,7 @@ from flask_babel import gettext
 from ...host.answers import RequestRefused
 from ...rrf import klipper
 from .gcode_store import MOST_LINES
-from .methods import Method
-
-CONTROL = "PLUGIN_RRFMODEL_CONTROL"
+from .methods import CONTROL, Method
 
 EMERGENCY_STOP = "printer.emergency_stop"
 

@@ -90,6 +90,10 @@ class Sockets(LoginStatusListener):
         """Tell the sockets a line that the printer said."""
         self._on_loop("responded", text)
 
+    def tell(self, method, params, permission):
+        """Tell something to those who have one of OctoPrint's permissions; any thread."""
+        self._on_loop("notify", method, params, permission)
+
     def forgotten(self):
         """Let the sockets see that nothing is known."""
         self.announce()

@@ -26,6 +26,8 @@ LARGEST_MESSAGE = 100_000
 SHORT_MESSAGE = 1_000
 """Characters of a message that may be worked on at once if there is an emergency stop in it."""
 
+READ = "PLUGIN_RRFMODEL_READ"
+
 POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
 
@@ -208,6 +210,13 @@ class SocketHub:
         """Tell the sockets a line that the printer said."""
         self.tell(jsonrpc.notification("notify_gcode_response", [line]))
 
+    def notify(self, method, params, permission):
+        """Tell something to the sockets whose users have a permission."""
+        text = jsonrpc.notification(method, params)
+        for socket in list(self.sockets):
+            if self._may(socket, permission):
+                socket.send(text)
+
     def logged_out(self, user):
         """Drop the sockets of a session that has ended."""
         for socket in self.sockets:
@@ -221,15 +230,18 @@ class SocketHub:
         no session: this has to be called from time to time.
         """
         for socket in list(self.sockets):
-            try:
-                may_read = socket.caller.may_read()
-            except Exception:
-                # users may come and go while they are looked through; the next look tells
-                self._logger.exception("Could not look up a user")
-                continue
-            if not may_read:
+            if self._may(socket, READ) is False:
                 self.closed(socket)
                 socket.close(POLICY_VIOLATION, "You may not read any longer")
+
+    def _may(self, socket, permission):
+        """Return whether a socket's user has a permission, ``None`` where nobody knows."""
+        try:
+            return socket.caller.may(permission)
+        except Exception:
+            # users may come and go while they are looked through; the next look tells
+            self._logger.exception("Could not look up a user")
+            return None
 
     def tell(self, text):
         """Send a notification to all."""

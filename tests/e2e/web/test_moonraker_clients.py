@@ -17,7 +17,7 @@ from moonraker_client import AsyncMoonrakerClient, MoonrakerClient
 from moonrakerpy import MoonrakerPrinter
 from pymoonraker import MoonrakerClient as PyMoonrakerClient
 
-from tests.clients.moonraker_calls import ALL, CLIENTS, WAITED_FOR
+from tests.clients.moonraker_calls import ALL, CLIENTS
 from tests.support import coroutines, ports
 from tests.support.basedir import ADMIN, OPERATOR, READER
 from tests.support.places import ROOT
@@ -177,18 +177,12 @@ def asked(client, root):
                 yield call, socket.answer(call.method, params)
 
 
-def waits(call, error):
-    """Return whether a call is refused only because its method isn't there yet."""
-    name = call.method.replace("/", ".").replace("database.item", "database.get_item")
-    return name in WAITED_FOR and error["code"] in (NO_METHOD, 404)
-
-
 @pytest.mark.parametrize("client", CLIENTS, ids=lambda client: client.name)
 def test_no_call_of_a_client_s_start_fails(root, client):
     for call, found in asked(client, root):
         error = found.get("error")
         if error is not None:
-            assert call.may_fail or waits(call, error), (call, error)
+            assert call.may_fail, (call, error)
             continue
         for name in client.results.get(call.method, ()):
             assert name in found["result"], call
@@ -197,18 +191,6 @@ def test_no_call_of_a_client_s_start_fails(root, client):
     with Socket(root, **keyed()) as socket:
         listed = socket.answer("printer.objects.list", {})["result"]["objects"]
     assert set(client.objects) <= set(listed)
-
-
-def test_what_is_waited_for_is_not_there(root):
-    with Socket(root, **keyed()) as socket:
-        there = {
-            name
-            for name in WAITED_FOR
-            if socket.answer(name, {}).get("error", {}).get("code") != NO_METHOD
-        }
-    assert there == set(), "take these out of WAITED_FOR"
-    called = {call.method.replace("/", ".") for client in CLIENTS for call in client.calls}
-    assert called >= WAITED_FOR
 
 
 # clients by themselves

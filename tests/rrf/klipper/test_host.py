@@ -158,7 +158,7 @@ def test_server_info(host, status, connected, state):
         "klippy_state": state,
         "components": [],
         "failed_components": [],
-        "registered_directories": [],
+        "registered_directories": ["gcodes", "printer"],
         "warnings": [],
         "websocket_count": 2,
         "moonraker_version": "v0.1.0",
