@@ -16,6 +16,7 @@ from octoprint_rrfmodel.web.moonraker.files import Files
 from octoprint_rrfmodel.web.moonraker.methods import Call, Methods, Upload, run
 from tests.support import stored
 from tests.support.sliced import PICTURE
+from tests.support.waiting import wait_for
 
 READ, CONTROL = "PLUGIN_RRFMODEL_READ", "PLUGIN_RRFMODEL_CONTROL"
 ALL = (
@@ -458,8 +459,11 @@ def test_octoprint_prints_its_own_files(hall):
         ("paused", "cancel", "cancel_print"),
     ):
         hall.printer.state = state
+        before = len(hall.printer.asked)
         hall.call(f"printer.print.{change}")
-        name, _, named = hall.printer.asked[-1]
+        # on a thread of its own
+        asked = wait_for(lambda before=before: hall.printer.asked[before:], 10, method)
+        name, _, named = asked[0]
         assert (name, named["user"]) == (method, "somebody")
     assert not hall.commands
 

@@ -163,7 +163,9 @@ def test_every_part_of_the_settings_is_there(own_page, server, page_errors):
         "What RepRapFirmware needs of OctoPrint",
         "Printer profile",
         "Other plugins",
+        "Clients of Moonraker's",
         "Simulated printer",
+        "Support bundle",
     ]
     # each control has a name, and follows the setting
     unnamed = dialog.evaluate(

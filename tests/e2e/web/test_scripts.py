@@ -105,6 +105,7 @@ def test_a_print_of_octoprints_is_paused_resumed_and_cancelled(server, board):
 
 def test_a_print_of_the_card_s_is_paused_and_cancelled(server, board):
     helpers.wait_value(server, "state.status", "idle", 30)
+    server.wait_state("Operational")
     server.commands(f'M32 "{CARD_FILE}"')
     helpers.wait_value(server, "state.status", "processing", 30)
     assert send(server, "PAUSE").json() == {"result": "ok"}
@@ -119,6 +120,7 @@ def test_a_print_of_the_card_s_is_paused_and_cancelled(server, board):
 @pytest.mark.both_hosts("each closes and opens its port with its own code")
 def test_a_restart_brings_the_board_back(server, board):
     helpers.wait_value(server, "state.status", "idle", 30)
+    server.wait_state("Operational")
     before = len(board.board.received())
     assert send(server, "FIRMWARE_RESTART").json() == {"result": "ok"}
     server.wait_for(
