@@ -4,7 +4,9 @@
 
 PYTHON ?= python3
 PYTHON39 ?= python3.9
-JOBS ?= 3
+# workers by OctoPrint: there are three times as many tests end to end in 2.0
+JOBS_1.11 ?= 2
+JOBS_2.0 ?= 4
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 MINUTES ?= 10
@@ -23,7 +25,7 @@ PURE := tests/rrf tests/simulator tests/docs tests/test_layering.py
 
 # the tests mostly wait for servers, so that more of them than cores run side by side; what takes
 # long begins first, which tests/conftest.py sees to
-PYTEST := -m pytest -n $(JOBS) --dist loadgroup --no-loadscope-reorder $(PYTEST_ARGS)
+PYTEST := -m pytest --dist loadgroup --no-loadscope-reorder $(PYTEST_ARGS)
 
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
@@ -130,14 +132,14 @@ test:
 
 test-1.11: .venv/octoprint-1.11/.ready .venv/octoprint-1.11-plain/.ready
 	@echo "tests in OctoPrint 1.11"
-	@$(VENV_1.11)/bin/python $(PYTEST)
+	@$(VENV_1.11)/bin/python $(PYTEST) -n $(JOBS_1.11)
 
 test-2.0: .venv/octoprint-2.0/.ready .venv/octoprint-2.0-plain/.ready
 	@echo "tests in OctoPrint 2.0"
-	@$(VENV_2.0)/bin/python $(PYTEST) $(PURE:%=--ignore=%)
+	@$(VENV_2.0)/bin/python $(PYTEST) -n $(JOBS_2.0) $(PURE:%=--ignore=%)
 
 test-pure-py39: .venv/python-3.9/.ready
-	@.venv/python-3.9/bin/python $(PYTEST) $(PURE)
+	@.venv/python-3.9/bin/python $(PYTEST) -n $(JOBS_1.11) $(PURE)
 
 .venv/python-3.9/.ready: requirements/dev.txt
 	@rm -rf $(@D)
