@@ -6,10 +6,10 @@ import pytest
 
 pytest.importorskip("octoprint")
 
-from octoprint_rrfmodel.host.answers import RequestRefused
 from octoprint_rrfmodel.web.moonraker.database import Database, file_name
 from octoprint_rrfmodel.web.moonraker.database_methods import database_methods
 from octoprint_rrfmodel.web.moonraker.methods import Call, Methods
+from tests.support.refusals import refused
 
 
 @pytest.fixture
@@ -21,12 +21,6 @@ def database(tmp_path):
 def call(database):
     methods = Methods(database_methods(database))
     return lambda name, **params: methods.named(f"server.database.{name}").run(Call(params, None))
-
-
-def refused(status, function, *arguments, **named):
-    with pytest.raises(RequestRefused, match=r"\.$") as error:
-        function(*arguments, **named)
-    assert error.value.status == status
 
 
 def test_a_client_finds_what_it_has_kept(call):
@@ -130,7 +124,9 @@ def test_no_more_than_fifty_namespaces(database):
     for number in range(50):
         database.put(f"n{number}", "a", 1)
     refused(400, database.put, "one more", "a", 1)
+    assert len(database.names()) == 50 and "one more" not in database.names()
     database.put("n7", "a", 2)
+    assert database.get("n7", "a") == 2
 
 
 def test_nothing_is_lost_where_the_disk_says_no(database, tmp_path):
@@ -153,6 +149,7 @@ def test_a_file_that_can_not_be_read_is_left_out(tmp_path, text):
 
 @pytest.mark.parametrize("method", ["post_item", "get_item", "delete_item"])
 def test_what_is_missing_is_named(call, method):
-    refused(400, call, method, key="a", value=1)
-    refused(400, call, method, namespace=3, key="a", value=1)
-    refused(400 if method == "post_item" else 404, call, method, namespace="a", key="a")
+    assert refused(400, call, method, key="a", value=1).startswith("namespace ")
+    assert refused(400, call, method, namespace=3, key="a", value=1).startswith("namespace ")
+    status, missing = (400, "value") if method == "post_item" else (404, "namespace")
+    assert missing in refused(status, call, method, namespace="a", key="a")

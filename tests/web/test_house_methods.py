@@ -21,6 +21,7 @@ from octoprint_rrfmodel.web.moonraker.printer_methods import printer_methods
 from octoprint_rrfmodel.web.moonraker.server_methods import components_of, server_methods
 from octoprint_rrfmodel.web.moonraker.tokens import MOST_TOKENS, SECONDS, OneshotTokens
 from octoprint_rrfmodel.web.moonraker.webcams import webcam
+from tests.support.refusals import refused
 
 
 def caller(*permissions, **members):
@@ -35,12 +36,6 @@ EVERYTHING = caller("PLUGIN_RRFMODEL_READ", "PLUGIN_RRFMODEL_CONTROL", "WEBCAM")
 
 def ask(rows, method, by=EVERYTHING, /, socket=None, **params):
     return run(Methods(rows).named(method), Call(params, by, socket))
-
-
-def refused(status, function, *arguments, **named):
-    with pytest.raises(RequestRefused, match=r"\.$") as error:
-        function(*arguments, **named)
-    assert error.value.status == status
 
 
 # webcams
@@ -212,7 +207,8 @@ def test_os_release():
     + ["server.logs.rollover"],
 )
 def test_what_is_octoprints_is_refused(name):
-    refused(403, ask, machine_methods(None, None, websocket_count=int), name)
+    rows = machine_methods(None, None, websocket_count=int)
+    assert "OctoPrint" in refused(403, ask, rows, name)
 
 
 # power
@@ -406,4 +402,4 @@ def test_a_client_that_says_it_wrong(status, params):
 
 @pytest.mark.parametrize("name", ["server.connection.identify", "server.websocket.id"])
 def test_over_http_there_is_no_connection(name):
-    refused(400, ask, connection_methods(), name)
+    assert "websocket" in refused(400, ask, connection_methods(), name)

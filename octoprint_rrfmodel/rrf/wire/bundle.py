@@ -47,7 +47,8 @@ def member(archive: bytes, name: str) -> Any:
             return json.loads(opened.read(name))
     except KeyError:
         raise NoBundle(f"no support bundle: there is no {name} in it") from None
-    except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, EOFError) as error:
-        if isinstance(error, NoBundle):
-            raise
+    except NoBundle:
+        raise
+    # NotImplementedError, a RuntimeError, is zipfile's word for a compression that it lacks
+    except (zipfile.BadZipFile, ValueError, RuntimeError, EOFError) as error:
         raise NoBundle(f"no support bundle: {error}") from None

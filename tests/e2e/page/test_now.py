@@ -75,7 +75,7 @@ def test_homing_is_said_from_its_beginning_to_its_end(page, view, server, page_e
     assert own_errors(page_errors) == []
 
 
-def test_what_was_pushed_before_a_state_and_comes_behind_it_is_not_lost(page, view, server, board):
+def test_a_message_that_an_answer_overtakes_is_not_lost(page, view, server, page_errors):
     """On a busy machine an answer overtakes a message that was sent before it."""
 
     def from_later(route):
@@ -93,6 +93,7 @@ def test_what_was_pushed_before_a_state_and_comes_behind_it_is_not_lost(page, vi
         wait_text(part(view, "speed-factor"), "100 %", 20)
     finally:
         page.unroute_all(behavior="ignoreErrors")
+    assert own_errors(page_errors) == []
 
 
 def test_temperatures_that_the_line_tells_are_news(page, view, server, board):
