@@ -162,7 +162,8 @@ def pytest_runtest_makereport(item, call):
     """Attach what the running servers logged to the report of a failure."""
     report = yield
     if report.failed:
-        for server in RUNNING:
+        # the test's own first: what was lent to a whole session comes last
+        for server in reversed(RUNNING):
             report.sections.append((f"OctoPrint at {server.url}", server.log_tail()))
             report.sections.append((f"serial port of {server.url}", server.serial_log_tail()))
     return report

@@ -129,19 +129,6 @@ def wait_polls(server, count=3, seconds=30):
     )
 
 
-LONG_PRINT = "\n".join(f"G1 X{20 + n % 100} Y{20 + n // 100} F600" for n in range(4000)) + "\n"
-
-
-def print_long(server):
-    """Return when OctoPrint streams a long print (``long.gcode``), and polls go beside it."""
-    server.commands("G28")
-    wait_value(server, "move.axes[].homed", [True] * 3, 30)
-    server.upload("long.gcode", LONG_PRINT)
-    server.select_and_print("long.gcode")
-    server.wait_state("Printing")
-    wait_polls(server, 1)
-
-
 # the model and the board's own
 
 

@@ -21,6 +21,9 @@ T = TypeVar("T")
 # five seconds on an idle machine; several servers starting at once on two cores need far more
 START_SECONDS = 120
 
+PORTS_COME_AND_GO = "onnection options"
+"""What the log of each server has of all boards of the bench."""
+
 LOG = "logs/octoprint.log"
 SERIAL_LOG = "logs/serial.log"
 
@@ -187,7 +190,8 @@ class OctoPrintServer:
 
     def log_tail(self) -> str:
         """Return the end of octoprint.log, for a failure message."""
-        return _last_lines(self.log())
+        told = [line for line in self.log().splitlines() if PORTS_COME_AND_GO not in line]
+        return _last_lines("\n".join(told))
 
     def serial_log_tail(self) -> str:
         """Return the end of serial.log, for a failure message."""

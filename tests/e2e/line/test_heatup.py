@@ -5,7 +5,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts("each has its own code for the serial line", once_for=("firmware",)),
@@ -63,7 +63,7 @@ def test_heating_in_a_print(server, board_factory, firmware):
             server, board, "M190 S60", lambda: heater["current"] >= 57.5, HEATING_SECONDS + 15
         )
         # by name the printer is at the temperature; whatever comes now comes after the wait
-        push.wait_for_event("PrintDone", 30)
+        prints.wait_done(server, push, 30)
         assert push.events("Disconnected") == push.events("Error") == []
     assert "heating" in reasons
     assert reasons <= {None, "heating", "long_command"}

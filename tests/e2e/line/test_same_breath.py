@@ -5,7 +5,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts("each queues operations with its own code", once_for=("machine",)),
@@ -120,7 +120,7 @@ def test_row_13_no_tool_becomes_another(one_extruder):
     server.upload("two.gcode", f"G21\nT{other}\nM104 T{other} S50\nG90\nT{first}\nT{other}\n")
     with PushListener(server, ADMIN) as push:
         server.select_and_print("two.gcode")
-        server.wait_for(lambda: push.events("PrintDone"), 60, "the end of the print")
+        prints.wait_done(server, push, 60)
         sent = helpers.commands(board)
         assert [line for line in sent if line[:1] == "T"] == [
             f"T{number}" for number in (other, first, other)

@@ -10,7 +10,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 REAL = int(os.environ.get("RRF_SILENCE", 0))
 
@@ -68,7 +68,7 @@ def test_row_1_silent_command_in_a_print(server, board):
     with PushListener(server, ADMIN) as push:
         server.select_and_print("silent.gcode")
         silence(server, board, MACRO)
-        push.wait_for_event("PrintDone", 60 + REAL)
+        prints.wait_done(server, push, 60 + REAL)
         assert push.events("Disconnected") == push.events("Error") == []
     # OctoPrint has sent nothing to wake the printer up, which would earn an ok too many
     helpers.assert_quiet(board, MACRO, moves[20])

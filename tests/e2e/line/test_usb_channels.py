@@ -6,7 +6,7 @@ from octoprint_rrfmodel.simulator.hardware.blank import INPUT_NAMES
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = pytest.mark.both_hosts("each has its own code for the line", once_for=("port",))
 
@@ -38,7 +38,7 @@ def test_row_27_own_channel_is_found(server, board_factory, firmware, port):
     before = len(board.board.received())
     with PushListener(server, ADMIN) as push:
         server.select_and_print("part.gcode")
-        server.wait_for(lambda: push.events("PrintDone"), PRINT_SECONDS, "the end of the print")
+        prints.wait_done(server, push, PRINT_SECONDS)
     sent = helpers.commands(board)[before:]
     moves = [line for line in sent if line.startswith("G1 X")]
     assert moves == [line for line in FILE.splitlines() if line.startswith("G1 X")]

@@ -5,7 +5,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts("each waits for acknowledgements with its own code"),
@@ -40,9 +40,7 @@ def test_row_14_waits_for_each_line(server_factory, board_factory, waits):
     server.upload("program.gcode", "\n".join(lines) + "\n")
     with PushListener(server, ADMIN) as push:
         server.select_and_print("program.gcode")
-        server.wait_for(lambda: push.events("PrintDone"), 120, "the end of the print")
-        # done is told when the last line leaves
-        server.wait_state("Operational")
+        prints.wait_done(server, push, 120)
         arrived = [text.partition("*")[0] for text in board.board.received()[before:]]
     assert [text for text in arrived if text in set(reaching)] == reaching
 
@@ -54,7 +52,7 @@ def test_row_15_an_asterisk_in_a_text_costs_nothing(server_factory, board_factor
     server.upload("stars.gcode", "M117 *** one ***\nG1 X1*2 Y5\nG90\nM117 two\n")
     with PushListener(server, ADMIN) as push:
         server.select_and_print("stars.gcode")
-        server.wait_for(lambda: push.events("PrintDone"), 15, "the end of the print")
+        prints.wait_done(server, push, 15)
         sent = [text.partition(" ")[2] for text in board.board.received()]
         assert any(text.startswith('M117 "*** one ***"*') for text in sent)
         assert not any("X1*2" in text for text in sent)
@@ -74,7 +72,9 @@ def test_a_stop_in_the_middle_pauses_however_it_is_written(server_factory, board
     with PushListener(server, ADMIN) as push:
         server.select_and_print("stop.gcode")
         push.wait_for_event("PrintPaused", 15)
+        # told while it is still pausing, when OctoPrint ignores that a print is resumed
+        server.wait_state("Paused")
         assert "behind" not in "".join(board.board.received())
         assert server.post("/api/job", json={"command": "pause", "action": "resume"}).ok
-        push.wait_for_event("PrintDone", 15)
+        prints.wait_done(server, push, 15)
     assert "behind" in "".join(board.board.received())

@@ -9,7 +9,7 @@ from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 from tests.support.waiting import within
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts(
@@ -46,7 +46,7 @@ def printing(server, board_factory):
     def start(**options):
         board = board_factory(**{"machine": "cartesian", "firmware": "3.5.3", **options})
         helpers.connect(server, board)
-        helpers.print_long(server)
+        prints.print_long(server)
         return board
 
     yield start

@@ -8,7 +8,7 @@ from tests.support import plugins
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = pytest.mark.slow
 
@@ -53,7 +53,7 @@ def connected(server, board_factory):
 @pytest.fixture
 def printing(server, connected):
     """A board on which OctoPrint streams a long print."""
-    helpers.print_long(server)
+    prints.print_long(server)
     return connected
 
 

@@ -5,7 +5,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts("each waits for acknowledgements with its own code"),
@@ -30,7 +30,7 @@ def test_row_16_print(server_factory, board_factory, fault, seconds):
     board.board.inject(fault)
     with PushListener(server, ADMIN) as push:
         server.select_and_print("short.gcode")
-        server.wait_for(lambda: push.events("PrintDone"), seconds, "the end of the print")
+        prints.wait_done(server, push, seconds)
     # its own way to find out, which takes the whole of its patience
     assert "Communication timeout" not in server.serial_log()
     board.board.clear(fault.partition(":")[0])

@@ -5,7 +5,7 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
-from .. import helpers
+from .. import helpers, prints
 
 pytestmark = [
     pytest.mark.both_hosts(
@@ -95,7 +95,7 @@ def test_row_6_file_that_does_not_home(server, board):
         assert PARKS in helpers.commands(board)
         home(server)
         resume(server)
-        push.wait_for_event("PrintDone", 60)
+        prints.wait_done(server, push, 60)
         assert push.count("PrintPaused", 1) == 1
         (notice,) = notices(push)
         assert MOVES[0] in notice["text"]
@@ -107,7 +107,7 @@ def test_who_resumes_it_as_it_is_lets_it_go(server, board):
     with PushListener(server, ADMIN) as push:
         print_until_paused(server, push, "let-go.gcode", MOVES)
         resume(server)
-        push.wait_for_event("PrintDone", 60)
+        prints.wait_done(server, push, 60)
         assert push.count("PrintPaused", 1) == 1
         server.wait_for(lambda: notices(push), 10, "the notice")
         assert len(notices(push)) == 1
@@ -161,7 +161,7 @@ def test_switching_off_what_is_not_there_spoils_nothing(server, board):
     server.upload("off.gcode", "\n".join(lines) + "\n")
     with PushListener(server, ADMIN) as push:
         server.select_and_print("off.gcode")
-        push.wait_for_event("PrintDone", 20)
+        prints.wait_done(server, push, 20)
         assert push.events("PrintPaused") == []
 
 
@@ -171,7 +171,7 @@ def test_each_can_be_switched_off(server, board):
         server.upload("free.gcode", "\n".join(MOVES) + "\n")
         with PushListener(server, ADMIN) as push:
             server.select_and_print("free.gcode")
-            push.wait_for_event("PrintDone", 60)
+            prints.wait_done(server, push, 60)
             assert push.events("PrintPaused") == []
     finally:
         server.set_setting("plugins.rrfmodel.guard", {"refused_move": True})
@@ -192,7 +192,7 @@ def test_row_6_pauses_of_a_file(server, board, command):
         assert cause["code"] == ("file_filament" if command == "M600" else "file_pause")
         assert f"2: {command}" in cause["text"]
         resume(server)
-        push.wait_for_event("PrintDone", 20)
+        prints.wait_done(server, push, 20)
         assert push.count("PrintPaused", 1) == 1
     assert "G4 P2" in helpers.commands(board)
 

@@ -5,6 +5,8 @@ import pytest
 from tests.support.basedir import ADMIN
 from tests.support.push import PushListener
 
+from .. import prints
+
 pytestmark = [
     pytest.mark.both_hosts("each streams and pauses with its own code", once_for=("stop",)),
     pytest.mark.slow,
@@ -30,9 +32,8 @@ def test_row_7_last_command(server, board, stop, behind):
     server.upload(name, f"M140 P0 S50\nM568 P3 S120 A2\nG4 P1\n{stop}\n{behind}")
     with PushListener(server, ADMIN) as push:
         server.select_and_print(name)
-        push.wait_for_event("PrintDone", 30)
+        prints.wait_done(server, push, 30)
         assert push.events("PrintPaused") == []
-    server.wait_state("Operational", 20)
     assert "stop.g runs" in server.serial_log()
     states = [heater["state"] for heater in board.board.model["heat"]["heaters"] if heater]
     assert states.count("active") == (2 if "H1" in stop else 0)

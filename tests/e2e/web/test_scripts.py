@@ -4,7 +4,7 @@ import pytest
 
 from tests.support.basedir import ADMIN, OPERATOR, READER
 
-from .. import helpers
+from .. import helpers, prints
 
 BASE = "/plugin/rrfmodel"
 
@@ -89,7 +89,7 @@ def test_who_may_not_control_sends_nothing(server):
 
 @pytest.mark.both_hosts("each pauses with its own code")
 def test_a_print_of_octoprints_is_paused_resumed_and_cancelled(server, board):
-    helpers.print_long(server)
+    prints.print_long(server)
     server.wait_state("Printing")
     assert send(server, "PAUSE", OPERATOR).json() == {"result": "ok"}
     server.wait_for(lambda: server.state().startswith("Paused"), 30, "the pause")
