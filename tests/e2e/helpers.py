@@ -219,7 +219,12 @@ def commands(board):
 
 def commands_of(board):
     """As ``commands``, for the board without its port."""
-    return [NUMBERED.match(text)["command"].strip() for text in board.received()]
+    return [command_of(text) for text in board.received()]
+
+
+def command_of(text):
+    """Return the G-code of a line, without its number and checksum."""
+    return NUMBERED.match(text)["command"].strip()
 
 
 def whole_moves(lines):

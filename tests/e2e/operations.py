@@ -32,6 +32,9 @@ BESIDE = re.compile(r'M(105|409|408|20|27)\b|M118 P1 S"\d+"$')
 
 MARKS = itertools.count()
 
+MOST_LOOKS = 60
+"""Requests after which all that has changed must have been fetched."""
+
 AS_OCTOPRINT = {
     "jog": (
         "printhead",
@@ -149,24 +152,31 @@ class Machine:
         """Return once the board has done all and the model says what has become of it."""
         self.arrive()
         asked = len(self.board.received())
-        # with two live requests in a row no key that has changed waits to be fetched
-        self.server.wait_for(lambda: self.look() or self._asks_live(asked), 20, "nothing new")
+        for _ in range(MOST_LOOKS):
+            self.look()
+            # with two live requests in a row no key that has changed waits to be fetched
+            polls = [line for line in self._since(asked) if helpers.is_poll(line)]
+            are_live = [poll.startswith(LIVE) for poll in polls]
+            if any(one and following for one, following in zip(are_live, are_live[1:])):
+                return
+        pytest.fail(f"there is always something new to fetch: {polls}")
 
-    def _asks_live(self, since):
-        polls = [line for line in helpers.commands(self.pty)[since:] if helpers.is_poll(line)]
-        return len(polls) > 1 and all(poll.startswith(LIVE) for poll in polls[-2:])
+    def _since(self, since):
+        return [helpers.command_of(line) for line in self.board.received()[since:]]
 
     def arrive(self):
         """Return once all that OctoPrint has queued until now was sent and is done."""
         mark = f'M118 P1 S"{next(MARKS)}"'
         self.server.commands(mark)
-        self.server.wait_for(lambda: mark in helpers.commands(self.pty)[-20:], 60, "the last line")
+        self.server.wait_for(lambda: mark in self._since(-20), 60, "the last line")
         self.wait_idle()
 
     def look(self):
         """Let the plugin ask at once, as it does when the board has something to say."""
         before = helpers.status(self.server)["counters"]["replies"]
+        asked = len(self.board.received())
         self.board.message("- Event notification -\n")
+        self.server.wait_for(lambda: any(map(helpers.is_poll, self._since(asked))), 10, "a request")
         self.server.wait_for(
             lambda: helpers.status(self.server)["counters"]["replies"] > before, 10, "a reply"
         )

@@ -8,10 +8,12 @@ from typing import Callable, TypeVar
 
 T = TypeVar("T")
 
-# the one who waits takes time from what it waits for, hence seldom where it takes long anyway
-SHORTEST_PAUSE = 0.02
-LONGEST_PAUSE = 0.2
-PAUSE_SHARE = 0.1
+# the one who waits takes time from what it waits for, hence seldom where it takes long anyway,
+# and seldom too where it takes long to look: a board is looked at at once, a server is asked
+SHORTEST_PAUSE = 0.005
+LONGEST_PAUSE = 0.5
+PAUSE_SHARE = 0.12
+LOOK_SHARE = 5
 
 # a CI machine is often shared; whoever waits longer only loses time where the test fails anyway
 PATIENCE = 2 if os.environ.get("CI") else 1
@@ -37,9 +39,12 @@ def wait_for(predicate: Callable[[], T], timeout: float = 10, what: str = "the c
     """
     started = time.monotonic()
     while True:
+        looked = time.monotonic()
         value = predicate()
         if value:
             return value
-        waited = time.monotonic() - started
+        now = time.monotonic()
+        waited = now - started
         assert waited < within(timeout), f"waited {timeout} s for {what}; last value {value!r}"
-        time.sleep(min(max(waited * PAUSE_SHARE, SHORTEST_PAUSE), LONGEST_PAUSE))
+        pause = max(waited * PAUSE_SHARE, (now - looked) * LOOK_SHARE, SHORTEST_PAUSE)
+        time.sleep(min(pause, LONGEST_PAUSE))
