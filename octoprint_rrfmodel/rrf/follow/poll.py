@@ -44,11 +44,10 @@ class ModelPlan:
         self._counters: Mapping[str, Any] | None = None
         self._asked: dict[str, Any] = {}
         self._keys: list[str] | None = None
-        self._fetched: set[str] = set()
+        self._fetched, self._torn = set[str](), set[str]()
         self._wanted: list[str] = []
         self._fetch: Fetch | None = None
-        self._asks_live = self._asks_row = False
-        self._torn: set[str] = set()
+        self._is_ready = self._asks_live = self._asks_row = False
         self._model: Mapping[str, Any] = {}
         self._live = LiveRound()
         self.too_large = TooLarge()
@@ -229,13 +228,14 @@ class ModelPlan:
         for path, value in updates:
             if path:
                 self._want(path)
+                self._fetched -= set() if self._is_ready else {path}
             else:
                 self._live.again(value)
         self._since_live = FETCHES_BETWEEN_LIVE
 
     def observe(self, model: Mapping[str, Any]) -> None:
         """Look at the counters after a change, and want each key that has another."""
-        self._model = model
+        self._model, self._is_ready = model, self.ready
         counters = model.get(SEQS)
         if isinstance(counters, dict) and counters is not self._counters:
             before = {key: self._counter(key) for key in self._asked}

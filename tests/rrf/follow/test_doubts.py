@@ -147,6 +147,25 @@ def test_fault_in_the_answer_about_a_key_is_doubted_too():
     assert follower.store.model == board.model
 
 
+def test_key_is_not_known_as_long_as_its_first_answer_is_doubted():
+    board = Board(guarded())
+    follower = Follower()
+    # it is the last one to be fetched
+    board.model["heat"] = board.model.pop("heat")
+    answers = []
+    while len(answers) < 2:
+        asked = follower.next_request()
+        if not asked.line.startswith('M409 K"heat"'):
+            serve(follower, board)
+        elif answers:
+            answers.append(serve(follower, board))
+        else:
+            answers.append(spoilt(follower, board, '"state":"active"', '"state":"fault"'))
+        assert follower.ready == (len(answers) == 2)
+    assert answers[0].is_doubted
+    assert follower.store.model == board.model
+
+
 def test_fault_that_is_known_by_another_name_once_more_is_known_is_the_same():
     """Live values tell no board's address: its drivers' faults are called by its place before."""
     model = guarded()
