@@ -22,7 +22,7 @@ TEMPERATURES = re.compile(r"(ok )?T\d*:")
 CARD_POLLED = re.compile(r"(?:Not SD printing|SD printing byte)")
 """What is said to OctoPrint's M27, which it asks by its own clock."""
 
-PLAIN = ("Recv: ok", "<<< ok", "Recv: wait", "<<< wait", "Recv: ", "<<< ", "<<<")
+PLAIN = frozenset(("Recv: ok", "<<< ok", "Recv: wait", "<<< wait", "Recv: ", "<<< ", "<<<"))
 """Lines that say nothing beyond that a command was taken."""
 
 ASKED = frozenset((COMMAND_TAG, SCRIPT_TAG))
@@ -69,11 +69,15 @@ class GcodeStore(PrinterCallback):
 
     def on_printer_add_log(self, data):
         """Take a line of OctoPrint's log (OctoPrint's callback)."""
+        # first what nearly all lines of a print are, two for each line of the file
+        is_plain = data in PLAIN or (data[:4] in SENT_LINE and " G" in data)
+        if is_plain and not (self._is_asked or self._trace.is_open):
+            return
         if not self._link.is_rrf:
             return
         if self._is_asked and data.startswith(OK):
             self._is_asked = False
-        if not self._trace.is_open and (data in PLAIN or (" G" in data and data[:4] in SENT_LINE)):
+        if is_plain and not self._trace.is_open:
             return
         if self._trace.hides(data) or data in PLAIN:
             return
