@@ -18,7 +18,7 @@ from octoprint_rrfmodel.link.terminal import PollTrace
 from octoprint_rrfmodel.rrf.card.listing import CardPlan
 from octoprint_rrfmodel.rrf.card.wording import Situation, reword
 from octoprint_rrfmodel.rrf.klipper import Kept
-from octoprint_rrfmodel.rrf.views.event_facts import ENDED
+from octoprint_rrfmodel.rrf.views.event_facts import ending
 from octoprint_rrfmodel.rrf.views.machine import Machine
 from octoprint_rrfmodel.rrf.views.temperatures import temperatures
 from octoprint_rrfmodel.rrf.wire.errors import guarded_warning, is_halted, is_serious
@@ -134,7 +134,7 @@ LOOKS = {
     "reword": lambda: lambda line: reword(line, Situation),
     "read": lambda: read,
     "masked": lambda: masked,
-    "ended": lambda: ENDED.search,
+    "ended": lambda: ending,
     "kept": lambda: Kept().heard,
     "store": lambda: lambda line: fresh_store().on_printer_add_log("Recv: " + line),
     "hides": lambda: lambda line: PollTrace(lambda command: False).hides("Send: " + line),

@@ -10,7 +10,7 @@ from octoprint.events import Events, eventManager
 from octoprint.printer import ErrorInformation, FirmwareInformation
 from octoprint.printer.connection import ConnectedPrinterState
 
-from ...rrf.views.event_facts import ENDED
+from ...rrf.views.event_facts import ending
 from ...rrf.views.job_steps import OPERATIONAL, STARTING, JobSteps
 from ...rrf.views.machine import Machine
 from ...rrf.views.temperatures import temperatures
@@ -128,7 +128,7 @@ class PrinterSide:
 
     def _hear(self, line):
         self.steps.heard(line)
-        if self._is_begun and ENDED.search(line):
+        if self._is_begun and ending(line):
             self.look()
 
     def _begin(self):

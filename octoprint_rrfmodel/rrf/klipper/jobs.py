@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from ..views.event_facts import LONGEST_ENDING
 from ..wire.sentences import sentences
 from .printer import Printer
 from .values import number, text, whole
@@ -85,7 +86,7 @@ def told(job: Job, line: str) -> Job:
     line = sentences(line.strip())
     if job.runs and line.startswith("Error:"):
         job = job._replace(error=line)
-    if ENDING_WORD in line:
+    if ENDING_WORD in line and len(line) <= LONGEST_ENDING:
         for ending, pattern in ENDINGS:
             if found := pattern.search(line):
                 return _told(job, ending, found.group("path"))

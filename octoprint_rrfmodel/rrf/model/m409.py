@@ -31,8 +31,7 @@ _NAME = re.compile(r"[^.\[^]*")
 _INDEX = re.compile(r"\[[ \t\n\v\f\r]*([+-]?)0*([0-9]+)\]")
 """An array index; groups are sign and digits. Blanks may stand before it, as strtol does."""
 
-_LETTER = re.compile(r"([da])([0-9]*)|.", re.DOTALL)
-"""One flag letter; groups 1 and 2 are the letter and the number of ``d<n>`` and ``a<n>``."""
+_DIGITS = re.compile("[0-9]*")
 
 
 class Flags(NamedTuple):
@@ -49,23 +48,25 @@ class Flags(NamedTuple):
 
 def parse_flags(text: str) -> Flags:
     """Return the meaning of a flags text such as ``d99fn``; unknown letters are ignored."""
-    letters = set()
-    numbers: dict[str, int] = {}
-    for match in _LETTER.finditer(text):
-        if match[1]:
-            # the number wraps at 32 bits, and 10**32 is a multiple of 2**32
-            numbers[match[1]] = int(match[2][-32:] or "0") % _UNSIGNED
-        else:
-            letters.add(match[0])
     return Flags(
-        live="f" in letters,
-        important="i" in letters,
-        verbose="v" in letters,
-        nulls="n" in letters,
-        obsolete="o" in letters,
-        depth=numbers.get("d"),
-        start=numbers.get("a"),
+        live="f" in text,
+        important="i" in text,
+        verbose="v" in text,
+        nulls="n" in text,
+        obsolete="o" in text,
+        depth=_number(text, "d"),
+        start=_number(text, "a"),
     )
+
+
+def _number(text: str, letter: str) -> int | None:
+    """Return the number behind the last such letter, 0 without one."""
+    at = text.rfind(letter)
+    digits = _DIGITS.match(text, at + 1)
+    if at < 0 or digits is None:
+        return None
+    # it wraps at 32 bits, and 10**32 is a multiple of 2**32
+    return int(digits[0][-32:] or "0") % _UNSIGNED
 
 
 class _Marked(dict):  # type: ignore[type-arg]

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from .event_facts import ENDED, Facts, facts_of
+from .event_facts import Facts, ending, facts_of
 from .events import CANCELLED, COMPLETE, end_of
 from .job import PRINTING, WITHOUT_JOB
 from .machine import mapping
@@ -79,7 +79,7 @@ class BoardRuns:
         self._facts = self._facts.heard(line)
         if self.run is None or not self.run.is_simulation:
             return
-        found = ENDED.search(line)
+        found = ending(line)
         if found:
             self.run = self.run._replace(heard=found["how"])
         elif SIMULATION_ENDED.match(line):

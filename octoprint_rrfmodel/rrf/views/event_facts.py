@@ -18,10 +18,20 @@ from .state_words import MONITORS, STATUSES, known
 
 Model = Mapping[str, Any]
 
-ENDED = re.compile(
+_ENDED = re.compile(
     r"(?P<how>Finished|Cancelled) printing file (?P<path>.{0,260}?)(?:, print time|$)"
 )
-"""What USB is told at the end of a job (3.5 GCodes.cpp, StopPrint): ``how`` one has, and which."""
+
+LONGEST_ENDING = 2000
+"""Characters from which on a line isn't looked at: the firmware's have not a quarter of that."""
+
+
+def ending(line: str) -> re.Match[str] | None:
+    """Return what USB is told at the end of a job (3.5 GCodes.cpp, StopPrint).
+
+    Group ``how`` is ``Finished`` or ``Cancelled``, ``path`` the file's.
+    """
+    return _ENDED.search(line) if len(line) <= LONGEST_ENDING else None
 
 
 def end_told(line: str, path: str | None) -> str:
@@ -29,7 +39,7 @@ def end_told(line: str, path: str | None) -> str:
 
     Empty for any other line; one about the job before may come when the next has begun.
     """
-    found = ENDED.search(line)
+    found = ending(line)
     if found is None or not _is_same(found["path"], path):
         return ""
     return found["how"]

@@ -29,7 +29,7 @@ from .line import find_reply
 from .pseudonyms import Pseudonyms
 from .reply import MalformedReply, members_of
 
-_STRING_OR_BARE = re.compile(r'"(?:[^"\\]|\\.)*"?|[^"]+')
+_STRING_OR_BARE = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|[^"]+')
 """A JSON string, to its end or that of all, or what stands between two."""
 
 _BARE_WORD = re.compile(r"[^\s,{}\[\]]+")

@@ -65,7 +65,7 @@ _LAST_LINE = re.compile(r'"line":[0-9]{1,10}(?:,"[a-z]+":[0-9]+)?\}$')
 _BEHIND_OBJECT = re.compile(r"\}[^,\]}]")
 """An object's end and a character that can't stand behind it in JSON, unless in a text."""
 
-_TEXT_OR_BRACE = re.compile(r'"(?:[^"\\]|\\.)*"?|[{}]')
+_TEXT_OR_BRACE = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|[{}]')
 """A JSON string, to its end or that of all, or a brace that is in none."""
 
 _SCAN: Any = json.JSONDecoder(strict=False).scan_once  # type: ignore[attr-defined]

@@ -58,7 +58,7 @@ class FolderPage(NamedTuple):
     """0, or why there are no entries: 1 no card, 2 no such folder (3.5 RepRap.cpp:1865)."""
 
 
-_LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"?|-?\b(?:nan|inf)\b')
+_LITERAL = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|-?\b(?:nan|inf)\b')
 """A string, to its end or that of all, or a word that M408 prints for a number that is none."""
 
 _HUGE = re.compile(r"[0-9](?:[eE]\+?[0-9]{3}|[0-9]{300})")
