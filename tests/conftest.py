@@ -116,9 +116,12 @@ def _module(item):
     return name.partition("tests/")[2].removeprefix("e2e/")
 
 
+def _is_of_the_page(item):
+    return "page" in getattr(item, "fixturenames", ())
+
+
 def _seconds(item):
-    is_of_the_page = "page" in getattr(item, "fixturenames", ())
-    return SECONDS.get(_module(item), BROWSER_SECONDS if is_of_the_page else 0)
+    return SECONDS.get(_module(item), BROWSER_SECONDS if _is_of_the_page(item) else 0)
 
 
 def _group(item):
@@ -138,6 +141,21 @@ def _seconds_of_groups(items):
     }
 
 
+def _beginnings(seconds, of_pages):
+    """Return in which part of the run each group begins, from 0 to 1: what takes long first.
+
+    Pages take the processor, while most others wait: they are spread over the whole run.
+    """
+    found = {}
+    for is_page in (True, False):
+        groups = [group for group in seconds if (group in of_pages) == is_page]
+        whole, done = sum(seconds[group] for group in groups) or 1, 0
+        for group in sorted(groups, key=seconds.get, reverse=True):
+            found[group] = done / whole
+            done += seconds[group]
+    return found
+
+
 # xdist's own implementation puts the group into the name of the test, so it has to come later
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
@@ -153,8 +171,9 @@ def pytest_collection_modifyitems(items):
         for number, item in enumerate(tests):
             part = number * parts // len(tests)
             item.add_marker(pytest.mark.xdist_group(f"{module}-{part}" if part else module))
-    seconds = _seconds_of_groups(items)
-    items.sort(key=lambda item: seconds[_group(item)], reverse=True)
+    of_pages = {_group(item) for item in items if _is_of_the_page(item)}
+    begins = _beginnings(_seconds_of_groups(items), of_pages)
+    items.sort(key=lambda item: begins[_group(item)])
 
 
 @pytest.hookimpl(wrapper=True)

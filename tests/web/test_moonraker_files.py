@@ -477,6 +477,10 @@ def test_a_print_that_can_not_begin(hall):
     assert hall.refused("printer.print.start", filename="a.gcode") == 409
     hall.printer.job = "local", "a.gcode"
     assert hall.refused("printer.print.resume") == 409
+    # OctoPrint ignores it then
+    hall.printer.state = "pausing"
+    with pytest.raises(RequestRefused, match="still being paused"):
+        hall.call("printer.print.resume")
     hall.printer.state = "offline"
     assert hall.refused("printer.print.start", filename="a.gcode") == 409
     assert not hall.printer.asked

@@ -75,7 +75,7 @@ class PrintMethods:
             method, fits = CHANGES[name]
             printer = self._printer()
             if not fits(printer):
-                raise RequestRefused(409, _misfit(name))
+                raise RequestRefused(409, _misfit(name, printer))
             act = partial(getattr(printer, method), tags=set(TAGS), user=call.caller.name)
             # other plugins' hooks run in it
             on_a_thread_of_its_own(act, name="rrfmodel.print")
@@ -104,7 +104,10 @@ CHANGES = {
 """What is done to a print, OctoPrint's method for it, and whether that does anything now."""
 
 
-def _misfit(name):
+def _misfit(name, printer):
     if name == "resume":
+        if printer.is_pausing():
+            # to a client it is paused already
+            return gettext("The print is still being paused. Try again in a moment.")
         return gettext("The print is not paused.")
     return gettext("The print is paused already, or about to end.")

@@ -28,6 +28,8 @@ GROUPS = (
         "test_chart",
         "test_data",
         "test_emergency",
+    },
+    {
         "test_heat",
         "test_model",
         "test_notifications",
@@ -41,6 +43,8 @@ GROUPS = (
         "test_console",
         "test_every_control",
         "test_jobs_counted",
+    },
+    {
         "test_keyboard",
         "test_machine",
         "test_machine_parts",
@@ -52,6 +56,8 @@ GROUPS = (
         "test_job",
         "test_job_controls",
         "test_job_idle",
+    },
+    {
         "test_old_firmware",
         "test_setup",
         "test_streamed",
