@@ -11,6 +11,7 @@ from octoprint.access.permissions import Permissions
 
 from ..host.answers import refusal
 from ..host.own_thread import on_a_thread_of_its_own
+from ..host.print_files import STARTING
 from ..host.request_json import json_of
 from ..host.warning_texts import waiting_text, warning_text
 from ..host.warnings import FILE_PAUSES
@@ -81,6 +82,8 @@ class PrintGuard:
         # events come late: the next pause may be under way before the end of the last one is told
         self._pausing_for = None
         self._pausing = None
+        # what was found while the print was still starting
+        self._early = ()
 
     def causes(self):
         """Return why the print may not go on, the worst first; nothing where there is none."""
@@ -110,8 +113,9 @@ class PrintGuard:
         """Pause if there is a reason to; tell each reason once."""
         causes = self.causes()
         self._was_off |= any(cause.code == OFF for cause in causes)
-        self._told &= frozenset(causes)
-        self._pause_for(causes)
+        early = [cause for cause in self._early if cause not in causes]
+        self._told &= frozenset((*causes, *early))
+        self._pause_for([*causes, *early])
 
     def _pause_for(self, causes):
         if causes and self._takes_over(causes):
@@ -126,6 +130,11 @@ class PrintGuard:
             return
         if self._pausing is not None and self._pausing.is_alive():
             # hung up, and pauses as soon as it can
+            return
+        self._early = ()
+        if printer.get_state_id() == STARTING:
+            # pausing now would be undone: OctoPrint goes on to printing behind its script
+            self._early = tuple(causes)
             return
         self._pausing_for = (tuple(causes), "")
         self._pausing = on_a_thread_of_its_own(printer.pause_print, name="rrfmodel.pause")
@@ -225,14 +234,15 @@ class PrintGuard:
 
     def started(self):
         """Note that a print has begun, which may have come to a line already that pauses it."""
-        pausing_for = self._pausing_for
+        pausing_for, early = self._pausing_for, self._early
         self.forgotten()
+        self._early = early
         if pausing_for is not None and _is_of_a_line(pausing_for):
             self._pausing_for = pausing_for
 
     def forgotten(self):
         """Note that there is no print any more, or another one."""
-        self._was_reset = self._was_off = False
+        self._was_reset, self._was_off, self._early = False, False, ()
         self._told = frozenset()
         self._paused_for = self._pausing_for = None
 

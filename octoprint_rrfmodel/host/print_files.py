@@ -23,6 +23,10 @@ _LOGGER = logging.getLogger("octoprint.plugins.rrfmodel.print_files")
 BUSY = ("is_printing", "is_paused", "is_pausing", "is_resuming", "is_cancelling", "is_finishing")
 """What OctoPrint's printer may be doing with its file."""
 
+STARTING = "STARTING"
+"""The printer's state while a script runs before the first line of a file: what is asked of the
+print then is forgotten, OctoPrint goes on to printing behind the script."""
+
 STATUSES = {
     StorageError.ALREADY_EXISTS: 409,
     StorageError.NOT_EMPTY: 409,

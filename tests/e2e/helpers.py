@@ -116,6 +116,17 @@ def wait_ready(server, seconds=READY_SECONDS):
     server.wait_for(lambda: status(server)["ready"], seconds, "the model to be ready")
 
 
+def restarts(server):
+    """Return how many restarts of the board have come to their end, for ``wait_restarted``."""
+    return server.log().count("is connected again")
+
+
+def wait_restarted(server, before):
+    """Return once one more restart than before is over, and the model whole again."""
+    server.wait_for(lambda: restarts(server) > before, 120, "the end of the restart")
+    wait_ready(server, 90)
+
+
 def wait_for_rrf(server):
     """Return once the printer has said what it is."""
     server.wait_for(lambda: status(server)["is_rrf"], 15, "the firmware to be known")

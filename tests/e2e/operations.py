@@ -167,8 +167,9 @@ class Machine:
     def arrive(self):
         """Return once all that OctoPrint has queued until now was sent and is done."""
         mark = f'M118 P1 S"{next(MARKS)}"'
+        asked = len(self.board.received())
         self.server.commands(mark)
-        self.server.wait_for(lambda: mark in self._since(-20), 60, "the last line")
+        self.server.wait_for(lambda: mark in self._since(asked), 60, "the last line")
         self.wait_idle()
 
     def look(self):

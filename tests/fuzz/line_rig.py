@@ -45,6 +45,7 @@ class Rig:
             isPaused=lambda: False,
             isCancelling=lambda: False,
             isFinishing=lambda: False,
+            isStarting=lambda: False,
             isSdFileSelected=lambda: False,
             setPause=self.note,
         )

@@ -15,9 +15,11 @@ class GuardedPrint:
         self.now = 0.0
         self.pauses = 0
         self.is_paused = is_paused
+        self.state = ""
         self.told = []
         self.model = {}
         printer = SimpleNamespace(
+            get_state_id=lambda: self.state,
             is_pausing=lambda: False,
             is_cancelling=lambda: False,
             is_finishing=lambda: False,

@@ -94,6 +94,36 @@ def test_driver_error_in_words_alone_pauses(text):
     assert len(printing.told) == 1
 
 
+def test_driver_error_in_words_while_the_print_starts_pauses_once_it_has_begun():
+    """OctoPrint goes on to printing behind its script, whatever was paused before."""
+    printing = Printing()
+    printing.state = "STARTING"
+    printing.say("- Event notification -", TOLD["3.4"])
+    assert (printing.pauses, printing.told) == (0, [])
+    # OctoPrint's event of the beginning may come later
+    printing.guard.started()
+    printing.take({"state": {"status": "idle"}})
+    assert printing.pauses == 0
+    printing.state = "PRINTING"
+    printing.take({"state": {"status": "idle"}})
+    assert printing.causes == ["driver_error_0_2"]
+    assert (printing.pauses, len(printing.told)) == (1, 1)
+    printing.guard.resumed()
+    printing.is_paused = False
+    printing.take({"state": {"status": "idle"}})
+    assert printing.pauses == 1
+
+
+def test_what_was_found_while_a_print_started_ends_with_it():
+    printing = Printing()
+    printing.state = "STARTING"
+    printing.say("- Event notification -", TOLD["3.4"])
+    printing.guard.forgotten()
+    printing.state = "PRINTING"
+    printing.take({"state": {"status": "idle"}})
+    assert printing.pauses == 0
+
+
 @pytest.mark.parametrize("text", TOLD.values(), ids=TOLD)
 def test_driver_error_in_a_box_alone_pauses(text):
     box = {"mode": 1, "seq": 3, "title": "Event notification", "message": text}

@@ -24,7 +24,7 @@ class Rig:
         self.notes = []
         self.pauses = 0
         self.is_paused = False
-        self.is_finishing = False
+        self.is_finishing = self.is_starting = False
         file = SimpleNamespace(getFilename=lambda: "/a.gcode", getStartTime=lambda: 5.0)
         self.comm = SimpleNamespace(
             _currentFile=file,
@@ -33,6 +33,7 @@ class Rig:
             isPausing=lambda: False,
             isCancelling=lambda: False,
             isFinishing=lambda: self.is_finishing,
+            isStarting=lambda: self.is_starting,
             isPaused=lambda: self.is_paused,
             isSdFileSelected=lambda: False,
             setPause=self.pause,
@@ -139,6 +140,15 @@ def test_fault_that_is_nobodys(rig):
     rig.send('M409 K"heat"', {POLL_TAG})
     ((name, code, place),) = rig.hear("Error: VSSA fault, check thermistor wiring")
     assert (name, code, place.command) == ("print_stops", "refused_heating", "")
+
+
+def test_fault_that_is_nobodys_while_the_print_starts(rig):
+    """OctoPrint goes on to printing behind its script: the firmware says it again."""
+    rig.is_starting = True
+    rig.send('M409 K"heat"', {POLL_TAG})
+    assert rig.hear("Error: VSSA fault, check thermistor wiring") == []
+    rig.is_starting = False
+    assert len(rig.hear("Error: VSSA fault, check thermistor wiring")) == 1
 
 
 def test_switching_off_what_is_not_there(rig):

@@ -16,6 +16,7 @@ class Printer:
     def __init__(self):
         self.state = "ready"
         self.job = None, None
+        self.is_starting = False
         self.asked = []
 
     def __getattr__(self, name):
@@ -25,6 +26,9 @@ class Printer:
                 or (name == "is_operational" and self.state != "offline")
             )
         return lambda *arguments, **named: self.asked.append((name, arguments, named))
+
+    def get_state_id(self):
+        return "STARTING" if self.is_starting else "PRINTING"
 
     def get_current_job(self):
         origin, path = self.job

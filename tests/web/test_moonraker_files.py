@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import os
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -466,6 +467,19 @@ def test_octoprint_prints_its_own_files(hall):
         name, _, named = asked[0]
         assert (name, named["user"]) == (method, "somebody")
     assert not hall.commands
+
+
+@pytest.mark.parametrize("change", ["pause", "cancel"])
+def test_a_print_that_only_starts_is_changed_once_it_has_begun(hall, change):
+    """OctoPrint forgets it before, and goes on to printing behind its script."""
+    hall.printer.job = "local", "a.gcode"
+    hall.printer.state, hall.printer.is_starting = "printing", True
+    assert hall.call(f"printer.print.{change}") == "ok"
+    (waiting,) = [each for each in threading.enumerate() if each.name == "rrfmodel.print"]
+    assert not hall.printer.asked
+    hall.printer.is_starting = False
+    waiting.join(10)
+    assert [name for name, _, _ in hall.printer.asked] == [f"{change}_print"]
 
 
 def test_a_print_that_can_not_begin(hall):

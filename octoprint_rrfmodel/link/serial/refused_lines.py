@@ -63,6 +63,9 @@ class RefusedLines:
         is_stopping = comm.isPausing() or comm.isPaused() or comm.isCancelling()
         if is_stopping or comm.isFinishing() or only_switches_off(command):
             return
+        if comm.isStarting():
+            # pausing now would be undone, and what is of a line of the file comes later
+            return
         if not self._stops(row.code, text, self._files.started_at()):
             return
         self._notify("print_stops", row.code, self._files.place(command, tags), text)

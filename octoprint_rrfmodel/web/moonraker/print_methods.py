@@ -1,12 +1,13 @@
 """Methods about prints: begun, paused, gone on with, cancelled, whoever runs them."""
 
+import time
 from functools import partial
 
 from flask_babel import gettext
 
 from ...host.answers import RequestRefused
 from ...host.own_thread import on_a_thread_of_its_own
-from ...host.print_files import LOCAL
+from ...host.print_files import LOCAL, STARTING
 from ...rrf.card.listing import ROOT
 from .methods import CONTROL, Method
 from .places import CARD
@@ -15,6 +16,10 @@ PRINT, SELECT = "PRINT", "FILES_SELECT"
 """OctoPrint's permissions for what its own API does so."""
 
 TAGS = frozenset(("source:plugin", "plugin:rrfmodel", "trigger:rrfmodel.moonraker"))
+
+
+LOOK_SECONDS = 0.1
+"""Between two looks at whether a print has begun."""
 
 
 class PrintMethods:
@@ -78,7 +83,7 @@ class PrintMethods:
                 raise RequestRefused(409, _misfit(name, printer))
             act = partial(getattr(printer, method), tags=set(TAGS), user=call.caller.name)
             # other plugins' hooks run in it
-            on_a_thread_of_its_own(act, name="rrfmodel.print")
+            on_a_thread_of_its_own(_once_begun, printer, act, name="rrfmodel.print")
             return "ok"
 
         return change
@@ -102,6 +107,13 @@ CHANGES = {
     "cancel": ("cancel_print", lambda printer: printer.is_printing() or printer.is_paused()),
 }
 """What is done to a print, OctoPrint's method for it, and whether that does anything now."""
+
+
+def _once_begun(printer, act):
+    """Do something to a print; OctoPrint would forget it while the print is still starting."""
+    while printer.get_state_id() == STARTING:
+        time.sleep(LOOK_SECONDS)
+    act()
 
 
 def _misfit(name, printer):

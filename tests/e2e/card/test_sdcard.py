@@ -518,8 +518,8 @@ def test_position_of_a_machine_with_many_axes(server, connected):
 
 def test_card_is_left_alone_while_a_print_is_streamed(server, connected, files):
     board = connected()
-    # ten seconds at this board's speed
-    server.upload("stream.gcode", "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 250)
+    # far more than is looked at
+    server.upload("stream.gcode", "G92 X20 Y20 Z1\n" + "G1 X21 F600\nG1 X20 F600\n" * 2500)
     server.select_and_print("stream.gcode")
     server.wait_state("Printing")
     before = len(board.board.received())
@@ -528,6 +528,7 @@ def test_card_is_left_alone_while_a_print_is_streamed(server, connected, files):
     sent = helpers.commands(board)[before:]
     assert server.state() == "Printing"
     assert not any(command.startswith("M20") for command in sent)
+    do(server, command="cancel")
     server.wait_state("Operational", 60)
     server.wait_for(lambda: "square.gcode" not in files(), 15, "the list afterwards")
 

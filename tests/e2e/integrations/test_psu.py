@@ -126,8 +126,8 @@ def test_row_29_off_when_idle(server, board, psucontrol):
     psucontrol(idle=IDLE_SECONDS)
     polls = helpers.status(server)["counters"]["replies"]
     calls = len(switched(server))
-    server.commands("M115")
     began = time.monotonic()
+    server.commands("M115")
     server.wait_for(lambda: switched(server)[calls:], IDLE_SECONDS + 10, "the supply to be off")
     assert time.monotonic() - began > IDLE_SECONDS - 1
     # it was polled meanwhile; how often is a matter of how busy this machine is

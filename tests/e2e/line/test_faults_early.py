@@ -43,7 +43,10 @@ def test_connecting_with_a_fault(server, board_factory, fault, firmware, counts)
     # the end of a connection may cut off a poll
     before = helpers.status(server)["counters"]
     server.connect(board.link)
-    helpers.wait_for_rrf(server)
+    # all is fetched within a second
+    server.wait_for(
+        lambda: any(map(helpers.is_poll, helpers.commands(board))), 15, "the first question"
+    )
     board.board.inject(fault)
     helpers.wait_ready(server, 60)
     board.board.clear(fault.partition(":")[0])

@@ -219,7 +219,8 @@ def test_history_of_octoprint_grows_no_faster_than_without_the_plugin(server, bo
     server.wait_for(
         lambda: time.time() >= began_at + WATCHED_SECONDS, 2 * WATCHED_SECONDS, "time to go by"
     )
-    entries = [entry for entry in kept() if entry["time"] > began_at]
+    until = began_at + WATCHED_SECONDS
+    entries = [entry for entry in kept() if began_at < entry["time"] <= until]
     assert entries
     assert len(entries) <= WATCHED_SECONDS / OWN_SECONDS + 2
-    assert helpers.status(server)["counters"]["polls"] - polls >= WATCHED_SECONDS / 2
+    assert helpers.status(server)["counters"]["polls"] - polls >= WATCHED_SECONDS / 4

@@ -46,7 +46,7 @@ def arrived(server, board, *lines):
     )
     assert time.monotonic() - started < within(10)
     # what comes from OctoPrint and the plugin at any time
-    own = ("M409", "M105", "M118", "M27", "M20")
+    own = ("M409", "M105", "M118", "M27", "M20", "M114", "M115")
     return [text for text in helpers.commands(board)[before:] if not text.startswith(own)]
 
 
@@ -166,11 +166,11 @@ def test_box_that_waits_on_the_line(server, connected, firmware, is_told):
 def test_box_of_a_macro_that_holds_the_line(server, connected):
     """No reply can tell of it: the text does."""
     board = connected()
-    server.commands("G4 S6")
+    server.commands("G4 S12")
     server.wait_for(lambda: helpers.status(server)["blocked"], 5, "the command to begin")
     board.board.message("- Look -\nIs it there?\nSend M292 to continue\n")
     server.wait_for(lambda: box_warning(server), 3, "the warning")
-    assert server.wait_for(lambda: not box_warning(server), 15, "the end of the warning")
+    assert server.wait_for(lambda: not box_warning(server), 30, "the end of the warning")
 
 
 ASKS = "- Look -\nIs it there?\nSend M292 to continue or M292 P1 to cancel\n"
@@ -258,7 +258,7 @@ def test_row_2_box_of_a_macro_is_answered_over_the_line(server, connected, firmw
     answer(server)
     server.wait_for(lambda: lines_behind(board, len(behind)), 20, "the lines behind")
     assert board.board.boxes.answers == [None]
-    assert "went on" in server.received()
+    server.wait_for(lambda: "went on" in server.received(), 5, "the macro's end")
     helpers.wait_value(server, "state.messageBox", None, 10)
     helpers.wait_polls(server, 3)
     assert helpers.status(server)["counters"]["timeouts"] == before

@@ -2,6 +2,9 @@
 
 import pytest
 
+from tests.support.basedir import ADMIN
+from tests.support.push import PushListener
+
 from .. import helpers
 from . import bench
 
@@ -33,7 +36,9 @@ def test_settings_tell_no_address_and_no_password(server):
 def test_simulated_board_is_a_host(server, octoprint_version):
     if octoprint_version.startswith("1."):
         pytest.skip("1.11 has no connectors")
-    assert bench.ask_to_connect(server, "RRF-SIM").status_code == 204
+    with PushListener(server, ADMIN) as push:
+        assert bench.ask_to_connect(server, "RRF-SIM").status_code == 204
+        push.wait_for_event("Error", 20)
     server.wait_for(lambda: not helpers.status(server)["connected"], 20, "nobody by that name")
     server.set_setting("plugins.rrfmodel.simulator.enabled", True)
     assert bench.ask_to_connect(server, "RRF-SIM").status_code == 204

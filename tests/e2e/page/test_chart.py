@@ -117,16 +117,19 @@ def test_every_heater_is_drawn_from_what_the_server_kept(page, server, view, pag
 
 def test_what_the_server_keeps_no_longer_is_not_shown(page, view):
     """Another machine's heaters are none of this one's."""
-    page.evaluate(
+    shown = page.evaluate(
         """() => {
             const kept = OctoPrint.coreui.viewmodels.rrfModelViewModel.history;
             const like = kept.series.get("heater0.current");
             const other = {id: "heater9.current", number: 9, values: like.values.slice()};
             kept.series.set(other.id, Object.assign({}, like, other));
             kept.revision(kept.revision() + 1);
+            // before the next answer of the server
+            return new Promise((done) => setTimeout(() => done(
+                document.querySelectorAll("[data-series=heater9]").length)));
         }"""
     )
-    expect(row(view, "heater9")).to_have_count(1)
+    assert shown == 1
     expect(row(view, "heater9")).to_have_count(0, timeout=30_000)
     expect(row(view, "heater0")).to_have_count(1)
 

@@ -354,7 +354,7 @@ ELSEWHERE = {
 def prepare(board):
     board.card.write("0:/macros/More/Park.g", "M117 parked\n")
     # long enough to be seen, and so to be among the last ones
-    board.card.write(SHORT, "G4 S90\n")
+    board.card.write(SHORT, "G4 S300\n")
     board.card.write(OTHER, "G4 P300\n")
     board.card.write(LONG, "T1\n" + BODY)
 

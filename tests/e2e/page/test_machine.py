@@ -352,7 +352,7 @@ def test_what_a_print_forbids_is_greyed_with_its_reason(page, view):
 def test_says_why_what_it_shows_is_old(page, view, server):
     state = page.locator("[data-test=strip-state]")
     expect(state).to_have_text("Idle")
-    server.commands("G4 S20")
+    server.commands("G4 S100")
     wait_text(state, "Waiting, ")
     wait_text(state, "Idle")
 

@@ -187,9 +187,11 @@ def test_a_print_greys_what_it_forbids(page, view, board, server):
     for name in ("tuning", "heaters", "outputs", "places", "bed", "boards"):
         unfold(view, name)
     expect(part(view, "tune").first).to_be_enabled(timeout=PATIENCE_MS)
-    state = board.board.data["state"]
-    status = page.evaluate("OctoPrint.coreui.viewmodels.rrfModelViewModel.latest.state.status")
-    assert status == "idle", state
+    # a macro may have just ended
+    page.wait_for_function(
+        "OctoPrint.coreui.viewmodels.rrfModelViewModel.latest.state.status === 'idle'",
+        timeout=PATIENCE_MS,
+    )
     page.evaluate(
         """() => {
             const core = OctoPrint.coreui.viewmodels.rrfModelViewModel;

@@ -68,7 +68,11 @@ def test_row_21_told_at_selection_and_sent_whole(server, board):
         sent = helpers.commands(board)
         assert 'M118 P1 S"one; two"' in sent
         assert "G4 P2" not in sent
-        (paused,) = [w for w in helpers.status(server)["warnings"] if w["code"] == "print_paused"]
+        (paused,) = server.wait_for(
+            lambda: [w for w in helpers.status(server)["warnings"] if w["code"] == "print_paused"],
+            10,
+            "why it is paused",
+        )
         assert paused["values"]["message"] == "Wait; then go"
         resume(server)
         push.wait_for_event("PrintDone", 20)

@@ -85,11 +85,33 @@ def test_row_9_driver_error_in_words_alone_pauses(server, printing, firmware):
     board = printing(firmware=firmware)
     board.board.inject("driver_error:2")
     server.wait_state("Paused", PAUSE_SECONDS)
-    told = pause(server)
+    told = server.wait_for(lambda: pause(server), PAUSE_SECONDS, "the reason")
     assert told["values"]["next"] == "resume"
     assert [cause["code"] for cause in told["causes"]] == ["driver_error_0_2"]
     assert resume(server).status_code == 204
     server.wait_state("Printing")
+
+
+def test_driver_error_while_the_print_starts_pauses_it_all_the_same(server, board_factory):
+    """A pause that comes while OctoPrint's own script runs is undone behind that."""
+    board = board_factory(machine="cartesian", firmware="3.4", speed=1)
+    helpers.connect(server, board)
+    server.set_setting("scripts", {"gcode": {"beforePrintStarted": "G4 S6"}})
+    try:
+        server.upload("long.gcode", prints.LONG_PRINT)
+        server.select_and_print("long.gcode")
+        server.wait_state("Starting", 10)
+        board.board.message("Driver 2 error: over temperature shutdown\n")
+        server.wait_state("Paused", PAUSE_SECONDS + 30)
+        told = server.wait_for(lambda: pause(server), PAUSE_SECONDS, "the reason")
+        assert [cause["code"] for cause in told["causes"]] == ["driver_error_0_2"]
+        sent = [line for line in helpers.commands(board) if line.startswith("G1 ")]
+        assert len(sent) < 1000
+    finally:
+        server.set_setting("scripts", {"gcode": {"beforePrintStarted": ""}})
+        board.board.speed = 20
+        cancel(server)
+        helpers.disconnect(server)
 
 
 def test_row_10_one_spoilt_reply_pauses_nothing(server, printing):
@@ -184,7 +206,7 @@ def test_heater_fault_by_firmware(server, printing, firmware):
     # the text on the line is quicker than the next poll
     assert time.monotonic() - started < within(PAUSE_SECONDS)
     server.wait_state("Paused", 15)
-    assert "heater_fault_1" in codes(server)
+    server.wait_for(lambda: "heater_fault_1" in codes(server), PAUSE_SECONDS, "the warning")
     assert not any(command == "M112" for command in helpers.commands(board))
 
 

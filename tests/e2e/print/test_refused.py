@@ -146,7 +146,7 @@ def test_other_kinds(server, board, lines, code, place):
 
 def test_fault_that_is_no_commands(server, board):
     with PushListener(server, ADMIN) as push:
-        server.upload("dwell.gcode", "\n".join(["G4 P50"] * 400) + "\n")
+        server.upload("dwell.gcode", "\n".join(["G4 P50"] * 4000) + "\n")
         push.wait_for_plugin(bool)
         server.select_and_print("dwell.gcode")
         server.wait_for(lambda: helpers.commands(board).count("G4 P50") > 3, 20, "some lines")
@@ -198,7 +198,7 @@ def test_row_6_pauses_of_a_file(server, board, command):
 
 
 def test_what_a_person_sends_is_told_and_no_more(server, board):
-    server.upload("dwell.gcode", "\n".join(["G4 P50"] * 400) + "\n")
+    server.upload("dwell.gcode", "\n".join(["G4 P50"] * 4000) + "\n")
     with PushListener(server, ADMIN) as push:
         push.wait_for_plugin(bool)
         server.select_and_print("dwell.gcode")

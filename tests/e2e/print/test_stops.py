@@ -34,7 +34,8 @@ def test_row_7_last_command(server, board, stop, behind):
         server.select_and_print(name)
         prints.wait_done(server, push, 30)
         assert push.events("PrintPaused") == []
-    assert "stop.g runs" in server.serial_log()
+    # the log is written by a thread of its own
+    server.wait_for(lambda: "stop.g runs" in server.serial_log(), 5, "the macro's word")
     states = [heater["state"] for heater in board.board.model["heat"]["heaters"] if heater]
     assert states.count("active") == (2 if "H1" in stop else 0)
     if "H1" in stop:

@@ -50,7 +50,7 @@ def test_each_row_has_a_switch_that_is_on(server, group):
 def test_settings(server, board, page, page_errors):
     open_octoprint(page, server, ADMIN)
     page.locator("[data-test=advice]").first.wait_for(timeout=within(30_000))
-    assert page.locator("[data-test=advice]").count() == len(warnings(server))
+    expect(page.locator("[data-test=advice]")).to_have_count(len(warnings(server)))
     # advice pops up nowhere
     assert page.locator(".ui-pnotify-text", has_text="upper case").count() == 0
     page.locator("[data-test=fix]").click()

@@ -182,7 +182,7 @@ def test_job_from_its_beginning_to_its_end(ready, server, firmware):
     # OctoPrint shows it as its own
     server.wait_state("Printing from SD", 20)
     helpers.wait_value(server, "job.build.objects", bool, 60)
-    machine.board.speed = 8.0
+    machine.board.speed = 3.0
     assert ask(server, "object", index=0, action="cancel").status_code == 204
     helpers.wait_value(server, "job.build.objects[0].cancelled", True, 5)
     assert ask(server, "object", index=0, action="resume").status_code == 204
@@ -222,7 +222,7 @@ def test_a_job_that_octoprint_does_not_show(ready, server):
     machine = ready()
     # none of the endings that OctoPrint lists
     with machine.board.lock:
-        machine.board.card.write("0:/gcodes/square.txt", "G4 S1\n" * 600)
+        machine.board.card.write("0:/gcodes/square.txt", "G4 S1\n" * 6000)
     machine.command("job", ['M32 "0:/gcodes/square.txt"'], action="start", path="square.txt")
     wait_status(server, "processing", 10)
     machine.command("job", ["M25"], action="pause")
@@ -238,12 +238,15 @@ def test_a_job_that_octoprint_does_not_show(ready, server):
 
 def test_simulation(ready, server):
     machine = ready(speed=5.0)
+    # a simulation of five seconds is looked at more than once
+    machine.board.speed = 0.2
     machine.command(
         "job", ['M37 P"0:/gcodes/square.gcode"'], action="simulate", path="square.gcode"
     )
     wait_status(server, "simulating", 10)
     for name in NOT_WHILE_PRINTING:
         assert_forbidden(ask(server, name))
+    machine.board.speed = 5.0
     wait_status(server, "idle", 60)
 
 

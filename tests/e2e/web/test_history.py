@@ -7,7 +7,7 @@ from tests.support.basedir import READER
 from .. import helpers
 
 PATH = "/plugin/rrfmodel/history"
-LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 100))
+LAYERS = "".join(f";LAYER_CHANGE\nG4 S{seconds}\n" for seconds in (60, 80, 200))
 """A print of three layers: seconds on the board's clock, which is twenty times as fast."""
 
 
@@ -93,7 +93,7 @@ def test_layers_of_a_job(server, board):
     assert first == pytest.approx(60, abs=3)
     assert second == pytest.approx(80, abs=3)
     # as it was seen last
-    assert 60 < last <= 102
+    assert 60 < last <= 202
     assert told["began"] < told["layers"][0]["at"] < told["layers"][-1]["at"] <= told["now"]
     assert history(server, since=told["now"])["layers"] == []
     with server.client(READER) as reader:

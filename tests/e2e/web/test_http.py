@@ -162,7 +162,7 @@ def test_live_quotes_what_the_firmware_reads_otherwise(ready, key):
 
 @pytest.mark.both_hosts("lines go through the queue of the host")
 def test_live_is_refused_while_polls_are_held_back(ready):
-    ready.commands("G4 S5")
+    ready.commands("G4 S15")
     ready.wait_for(
         lambda: helpers.status(ready)["blocked"] == "long_command", 10, "the line to be blocked"
     )

@@ -401,4 +401,4 @@ def test_drops_a_client_that_does_not_read(server, socket):
                 lambda: socket.result("server.info")["websocket_count"] == 1, 10, "its end"
             )
     assert server.state() == "Operational"
-    assert helpers.status(server)["stale"] is False
+    server.wait_for(lambda: not helpers.status(server)["stale"], 10, "fresh values")

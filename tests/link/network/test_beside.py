@@ -14,7 +14,7 @@ from octoprint_rrfmodel.link.network.memory import Memory
 from octoprint_rrfmodel.rrf.wire.rr import path_of
 from octoprint_rrfmodel.simulator.board import Board
 from octoprint_rrfmodel.simulator.network.http_board import HttpBoard
-from tests.support.waiting import wait_for
+from tests.support.waiting import wait_for, within
 
 HERE = "127.0.0.1"
 
@@ -103,7 +103,7 @@ def test_stop_passes_a_heat_up(face):
     began = time.monotonic()
     rig.stop()
     assert face.board.is_halted
-    assert time.monotonic() - began < 5
+    assert time.monotonic() - began < within(5)
     assert rig.notes == [("refused_operation", "stopped_beside")]
     assert len(face.sessions) == 0
 
