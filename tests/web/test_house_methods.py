@@ -145,6 +145,33 @@ def test_endstops_and_commands_in_words():
     assert ask(rows, "printer.query_endstops.status") == {}
 
 
+def refusing(sentence):
+    def run(script, caller):
+        raise RequestRefused(409, sentence)
+
+    return SimpleNamespace(run=run)
+
+
+def test_a_script_that_is_refused_is_told_to_all():
+    told = []
+    rows = printer_methods(
+        None, refusing("Not now."), None, websocket_count=int, refused=told.append
+    )
+    with pytest.raises(RequestRefused, match="Not now"):
+        ask(rows, "printer.gcode.script", script="G28")
+    assert told == ["Not now."]
+
+
+def test_errors_that_the_printer_said_are_marked():
+    said = [("Error: no", "command"), ("Error: no", "response"), ("all is well", "response")]
+    lines = [{"message": text, "time": 1.0, "type": kind} for text, kind in said]
+    rows = printer_methods(
+        None, None, SimpleNamespace(latest=lambda count: lines), websocket_count=int
+    )
+    found = ask(rows, "server.gcode_store")["gcode_store"]
+    assert [line["message"] for line in found] == ["Error: no", "!! Error: no", "all is well"]
+
+
 # the computer
 
 
@@ -185,6 +212,27 @@ def test_bandwidth_is_what_has_passed_since(monkeypatch):
         "Previously Under-Volted",
         "Previously Throttled",
     ]
+
+
+def test_shares_are_of_no_instant():
+    now = 100.0
+    statistics = computer.Statistics(lambda: None, lambda: now)
+    first = statistics.statistics(1)
+    now = 100.4
+    again = statistics.statistics(2)
+    assert again["moonraker_stats"] == first["moonraker_stats"]
+    assert again["websocket_connections"] == 2
+    for now in (100.5, 10.0):
+        assert statistics.statistics(2)["moonraker_stats"][0]["time"] == now
+
+
+def test_news_of_the_computer_are_one_sample():
+    statistics = computer.Statistics(lambda: 0)
+    news = statistics.news(3)
+    assert news["websocket_connections"] == 3
+    assert news["moonraker_stats"]["memory"] > 1000
+    assert not {"throttled_state", "system_uptime"} & set(news)
+    assert {"cpu_temp", "network", "system_cpu_usage", "system_memory"} < set(news)
 
 
 @pytest.mark.parametrize("bits, told", [(None, None), (-1, None), (0, {"bits": 0, "flags": []})])

@@ -11,6 +11,7 @@ import tornado.websocket
 from flask_babel import gettext
 
 from ...host.answers import RequestRefused
+from ...rrf.klipper import as_said
 from ..access import WithoutKeys, caller_of, caller_of_key
 from ..origin import is_own
 from . import jsonrpc
@@ -52,14 +53,21 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
     def prepare(self):
         """Let in who shows a key, a token or a session and has READ: OctoPrint checks nothing."""
         token = self.get_query_argument("token", None)
-        self._has_token = token is not None
-        if self._has_token:
-            self.caller = self._hub.redeem(token)
-        else:
-            self.caller = caller_of(self._app, self.request, self._hub.find_user)
+        self.caller = None if token is None else self._hub.redeem(token)
+        self._has_token = self.caller is not None
+        if not self._has_token:
+            self.caller = self._without_token(token is not None)
         if self.caller is None or not self.caller.may_read():
             self.set_status(403)
             self.finish({"error": "You may not read the machine's model."})
+
+    def _without_token(self, is_wrong):
+        """Return who shows a key or a session; beside a token that is wrong only a key counts.
+
+        KlipperScreen has its key in the place of a token, and as a key too.
+        """
+        caller = caller_of(self._app, self.request, self._hub.find_user)
+        return None if is_wrong and caller is not None and caller.is_of_session else caller
 
     def check_origin(self, origin):
         """Return whether a page may open this: any that has a key or a token, of sessions only
@@ -208,7 +216,7 @@ class SocketHub:
 
     def responded(self, line):
         """Tell the sockets a line that the printer said."""
-        self.tell(jsonrpc.notification("notify_gcode_response", [line]))
+        self.tell(jsonrpc.notification("notify_gcode_response", [as_said(line)]))
 
     def notify(self, method, params, permission):
         """Tell something to the sockets whose users have a permission."""
