@@ -343,6 +343,24 @@ def test_no_supply_is_switched_off_during_a_print(device):
     assert switched == power.sent == []
 
 
+def test_several_devices_by_their_names():
+    switched = []
+    power = Power(psu_control(switched))
+    both = dict.fromkeys(("machine", "PSUControl"))
+    assert power.ask("status", **both) == {"machine": "on", "PSUControl": "on"}
+    # as KlipperScreen switches them
+    assert power.ask("off", PSUControl=None) == {"PSUControl": "off"}
+    assert power.ask("on", **both) == {"machine": "on", "PSUControl": "on"}
+    assert switched == [False, True]
+    assert power.sent == [("power", {"on": True})]
+    for name in ("status", "off"):
+        refused(404, power.ask, name, machine=None, toaster=None)
+        refused(400, power.ask, name)
+    assert power.sent == [("power", {"on": True})]
+    with pytest.raises(RequestRefused):
+        ask(power.rows, "machine.device_power.on", caller("PLUGIN_RRFMODEL_READ"), machine=None)
+
+
 def test_switching_takes_what_it_takes():
     power = Power(psu_control([]))
     refused(400, power.ask, "post_device", device="machine", action="off now")
