@@ -27,6 +27,8 @@ BOARD = {"machine": "cartesian"}
 
 SETTING = "plugins.rrfmodel.moonraker"
 
+NOT_FOUND = 404
+
 NO_METHOD = -32601
 
 NETWORK_CLIENTS = Path(os.environ.get("NETWORK_CLIENTS") or ROOT / ".venv" / "network-clients")
@@ -187,12 +189,11 @@ def test_no_call_of_a_client_s_start_fails(root, client):
     for call, found in asked(client, root):
         error = found.get("error")
         if error is not None:
-            assert call.may_fail, (call, error)
+            # Mainsail takes anything but 404 for the file
+            assert call.may_fail and error["code"] in (NOT_FOUND, NO_METHOD), (call, error)
             continue
         for name in client.results.get(call.method, ()):
             assert name in found["result"], call
-    listed = next(found for call, found in asked(client, root) if "result" in found)
-    assert listed
     with Socket(root, **keyed()) as socket:
         listed = socket.answer("printer.objects.list", {})["result"]["objects"]
     assert set(client.objects) <= set(listed)
