@@ -71,8 +71,32 @@ COMPANIONS = (
     ),
     Client(
         "OctoApp",
-        "crysxd/OctoApp-Plugin moonraker_octoapp/moonrakerclient.py 00a51b1",
-        OCTOEVERYWHERE,
+        "crysxd/OctoApp-Plugin moonraker_octoapp: moonrakerclient.py 00a51b1,"
+        " moonrakerdatabase.py 0e4210d",
+        (
+            identify("OctoApp", "agent", api_key="KEY"),
+            *OCTOEVERYWHERE,
+            Call("server.database.get_item", item("octoapp", "apps"), may_fail=True),
+            Call(
+                "server.database.get_item",
+                item("mainsail", "general.printername"),
+                may_fail=True,
+            ),
+            Call(
+                "server.database.get_item",
+                item("fluidd", "uiSettings.general.instanceName"),
+                may_fail=True,
+            ),
+            Call(
+                "server.database.get_item",
+                item("ocotapp", "public.encryptionKey"),
+                may_fail=True,
+            ),
+            Call(
+                "server.database.post_item",
+                item("octoapp", "public", value={"pluginVersion": "2.0.0", "lastSeen": 1.5}),
+            ),
+        ),
         {"server.info": ("klippy_state",), "printer.objects.subscribe": ("status",)},
     ),
     Client(
