@@ -4,38 +4,8 @@ A row has the calls in their order. ``ALL`` as objects are all that the list has
 for a failure, unless the client goes on without a word: that call says so.
 """
 
-from typing import Any, NamedTuple
-
-ALL = "all"
-
-
-class Call(NamedTuple):
-    """A call over the socket; ``verb`` makes it one over HTTP, with the path in ``method``."""
-
-    method: str
-    params: dict[str, Any] = {}
-    verb: str = ""
-    may_fail: bool = False
-
-
-class Client(NamedTuple):
-    """One client, and what it looks for in the answers."""
-
-    name: str
-    source: str
-    calls: tuple[Call, ...]
-    results: dict[str, tuple[str, ...]] = {}
-    """Members without which it fails."""
-    objects: tuple[str, ...] = ()
-    """Printer objects without which it complains."""
-
-
-def _identify(name, kind):
-    return Call(
-        "server.connection.identify",
-        {"client_name": name, "version": "1.0.0", "type": kind, "url": "https://example.org"},
-    )
-
+from tests.clients.moonraker_call import ALL, Call, Client, identify, item, objects
+from tests.clients.moonraker_companions import COMPANIONS
 
 SERVER_INFO = (
     *("klippy_connected", "klippy_state", "components", "failed_components", "warnings"),
@@ -45,41 +15,54 @@ SERVER_INFO = (
 CLIENTS = (
     Client(
         "Mainsail",
-        "mainsail-crew/mainsail src/store: server, printer, gui, files, server/*/actions.ts",
+        "mainsail-crew/mainsail src/store: server/actions.ts 0126619, printer/actions.ts 08cc4f4,"
+        " printer/getters.ts 4d241fc, gui/actions.ts e8158af, gui/maintenance/actions.ts dec96b3,"
+        " server/history/actions.ts 9aa813f, files/actions.ts 03b7b3a",
         (
-            _identify("mainsail", "web"),
+            identify("mainsail", "web"),
             Call("server.info"),
             Call("server.config"),
             Call("machine.system_info"),
             Call("machine.proc_stats"),
             Call("server.database.list", {"root": "config"}),
+            # where its namespaces are not there yet
+            Call("server/files/config/.theme/default.json", verb="GET", may_fail=True),
+            Call(
+                "server/database/item",
+                item("mainsail", "initVersion", value="v2.17.0"),
+                verb="POST",
+            ),
+            Call("server.database.get_item", item("mainsail")),
+            Call("server/files/config/.theme/maintenance.json", verb="GET", may_fail=True),
             Call(
                 "server.database.post_item",
-                {"namespace": "mainsail", "key": "initVersion", "value": "2.17.0"},
+                item("maintenance", "5f9c3d3e-8a43-4d0e", value={"name": "MAINTENANCE_INIT"}),
             ),
-            Call("server.database.get_item", {"namespace": "mainsail"}),
             Call("server.webcams.list"),
+            Call("server.history.list", {"start": 0, "limit": 50, "max": 100}),
+            Call("server.history.totals"),
+            Call("machine.device_power.devices"),
+            Call("server.files.get_directory", {"path": "gcodes"}),
+            Call("server.files.get_directory", {"path": "printer"}),
+            Call("server.info"),
             Call("printer.info"),
             Call("printer.objects.list"),
             Call("printer.gcode.help"),
             Call("server.gcode_store"),
             Call("printer.objects.subscribe", {"objects": ALL}),
             Call("server.temperature_store"),
-            Call("server.files.get_directory", {"path": "gcodes"}),
-            Call("server.history.list", {"start": 0, "limit": 50}),
-            Call("server.history.totals"),
-            Call("machine.device_power.devices"),
-            Call("machine.update.status", {"refresh": False}),
-            Call("server.job_queue.status"),
-            Call("server.announcements.list", {"include_dismissed": True}),
         ),
         {
             "server.connection.identify": ("connection_id",),
             "server.info": SERVER_INFO,
+            "server.config": ("config",),
             "machine.system_info": ("system_info",),
             "server.database.list": ("namespaces",),
+            "server.database.get_item": ("value",),
             "server.webcams.list": ("webcams",),
-            "printer.info": ("state", "state_message", "hostname", "software_version"),
+            "printer.info": ("state", "state_message", "hostname", "software_version", "cpu_info"),
+            "printer.objects.list": ("objects",),
+            "printer.objects.subscribe": ("status",),
             "server.gcode_store": ("gcode_store",),
         },
         (
@@ -89,183 +72,108 @@ CLIENTS = (
     ),
     Client(
         "Fluidd",
-        "fluidd-core/fluidd src/store: socket, server, printer; src/api/socketActions.ts",
+        "fluidd-core/fluidd src: init.ts 043df78, store/socket/actions.ts 5b02551,"
+        " store/server/actions.ts and store/printer/actions.ts 0086d7a,"
+        " api/socketActions.ts 01e3c8b",
         (
-            _identify("fluidd", "web"),
-            Call("server.database.get_item", {"namespace": "fluidd"}, may_fail=True),
-            Call(
-                "server.database.post_item",
-                {"namespace": "fluidd", "key": "uiSettings", "value": {}},
-            ),
-            Call("server.database.get_item", {"namespace": "webcams"}, may_fail=True),
+            Call("server/database/item", item("fluidd"), verb="GET", may_fail=True),
+            Call("server/database/item", item("fluidd", "uiSettings", value={}), verb="POST"),
+            Call("access/oneshot_token", verb="GET"),
             Call("server.info"),
-            Call("server.config"),
-            Call("machine.proc_stats"),
-            Call("machine.system_info"),
+            identify("fluidd", "web"),
             Call("server.files.list", {"root": "config"}, may_fail=True),
             Call("printer.info"),
             Call("printer.objects.list"),
-            Call("printer.objects.subscribe", {"objects": ALL}),
-            Call("server.temperature_store", {"include_monitors": True}),
-            Call("server.gcode_store"),
-            Call("printer.gcode.help"),
+            Call("access.get_user"),
+            Call("access.users.list"),
+            # nobody gets a key from us
+            Call("access.get_api_key", may_fail=True),
+            Call("server.config"),
+            Call("machine.proc_stats"),
+            Call("machine.system_info"),
             Call("server.webcams.list"),
             Call("server.history.list", {"limit": 50}),
             Call("server.history.totals"),
-            Call("server.job_queue.status"),
             Call("machine.device_power.devices"),
-            Call("machine.update.status", {"refresh": False}),
-            Call("server.announcements.list"),
+            Call("printer.objects.subscribe", {"objects": ALL}),
+            Call("server.gcode_store"),
+            Call("printer.gcode.help"),
+            Call("server.temperature_store", {"include_monitors": True}),
         ),
         {
             "server.connection.identify": ("connection_id",),
             "server.info": SERVER_INFO,
-            "printer.info": ("state", "state_message"),
+            "printer.info": ("state", "state_message", "software_version"),
             "printer.objects.list": ("objects",),
             "printer.objects.subscribe": ("status",),
         },
     ),
     Client(
         "KlipperScreen",
-        "KlipperScreen/KlipperScreen screen.py, ks_includes/MoonrakerApi.py, KlippyRest.py",
+        "KlipperScreen/KlipperScreen screen.py 00cae98, ks_includes/KlippyWebsocket.py of the same"
+        " year, ks_includes/MoonrakerApi.py 27555e8, ks_includes/printer.py d0faec9",
         (
-            Call("access/oneshot_token", verb="GET"),
-            _identify("KlipperScreen", "display"),
+            identify("KlipperScreen", "display"),
             Call("server.info"),
             Call("machine.device_power.devices"),
             Call("server.webcams.list"),
             Call("printer.info"),
-            Call("printer.objects.query", {"objects": {"configfile": None}}),
+            Call("printer.objects.query", objects("configfile")),
             Call("printer.objects.list"),
             Call("printer.objects.query", {"objects": ALL}),
             Call("printer.gcode.help"),
             Call("machine.system_info"),
             Call("server.config"),
-            Call("printer.objects.subscribe", {"objects": ALL}),
+            Call(
+                "printer.objects.subscribe",
+                objects(
+                    configfile=["config", "warnings"],
+                    fan=["speed"],
+                    extruder=["target", "temperature", "pressure_advance", "smooth_time", "power"],
+                    heater_bed=["target", "temperature", "power"],
+                    toolhead=["homed_axes", "position", "extruder", "max_accel", "max_velocity"],
+                    manual_probe=["is_active"],
+                    screws_tilt_adjust=["results", "error", "max_deviation"],
+                ),
+            ),
             Call("server.temperature_store"),
             Call("server.files.roots"),
             Call("server.files.get_directory", {"path": "gcodes"}),
         ),
         {
             "server.info": SERVER_INFO,
-            "printer.info": ("state",),
+            "printer.info": ("state", "software_version"),
             "machine.system_info": ("system_info",),
+            "machine.device_power.devices": ("devices",),
             "server.webcams.list": ("webcams",),
         },
+        query="?token=KEY",
     ),
     Client(
         "Mobileraker",
-        "Clon1998/mobileraker common/lib/service; mobileraker_companion data_sync_service.py",
+        "Clon1998/mobileraker common/lib: service/moonraker/klippy_service.dart 315bace,"
+        " service/moonraker/printer_service.dart 6478bc9, network/json_rpc_client.dart 09595c4,"
+        " data/dto/config and data/dto/machine 2024",
         (
-            _identify("Mobileraker", "mobile"),
+            identify("Mobileraker-android", "mobile"),
             Call("server.info"),
             Call("printer.info"),
-            Call("machine.system_info"),
             Call("printer.objects.list"),
             Call("printer.objects.query", {"objects": ALL}),
-            Call("printer.objects.subscribe", {"objects": ALL}),
-            Call("printer.gcode.help"),
             Call("server.temperature_store"),
-            Call("server.gcode_store"),
+            Call("printer.objects.subscribe", {"objects": ALL}),
             Call("server.webcams.list"),
-            Call("server.job_queue.status"),
-            Call("server.announcements.list", {"include_dismissed": False}),
             Call("machine.device_power.devices"),
-            Call("server.database.get_item", {"namespace": "mobileraker"}, may_fail=True),
-            Call("server.files.get_directory", {"path": "gcodes", "extended": True}),
-        ),
-        {"server.info": SERVER_INFO, "printer.info": ("state", "state_message")},
-    ),
-    Client(
-        "Obico",
-        "TheSpaghettiDetective/moonraker-obico moonraker_obico/moonraker_conn.py",
-        (
-            Call("server/info", verb="GET"),
-            Call("printer/objects/query", {"heaters": ""}, verb="GET"),
-            Call("server/history/list", {"order": "desc", "limit": "1"}, verb="GET"),
-            Call("server/database/item", {"namespace": "webcams"}, verb="GET", may_fail=True),
-            Call(
-                "printer.objects.subscribe",
-                {
-                    "objects": {
-                        "print_stats": ["state", "message", "filename"],
-                        "webhooks": ["state", "state_message"],
-                        "history": None,
-                    }
-                },
-            ),
-            Call(
-                "printer.objects.query",
-                {
-                    "objects": dict.fromkeys(
-                        (
-                            *("webhooks", "print_stats", "virtual_sdcard", "display_status"),
-                            *("heaters", "toolhead", "extruder", "gcode_move"),
-                        )
-                    )
-                },
-            ),
-        ),
-        {"server/info": ("klippy_state",), "printer/objects/query": ("status",)},
-    ),
-    Client(
-        "OctoEverywhere, OctoApp",
-        "QuinnDamerell/OctoPrint-OctoEverywhere moonraker_octoeverywhere/moonrakerclient.py",
-        (
-            Call("server.info"),
-            Call(
-                "printer.objects.subscribe",
-                {
-                    "objects": {
-                        "print_stats": ["state", "filename", "message"],
-                        "webhooks": None,
-                        "virtual_sdcard": None,
-                        "history": None,
-                    }
-                },
-            ),
-        ),
-        {"server.info": ("klippy_state",), "printer.objects.subscribe": ("status",)},
-    ),
-    Client(
-        "moonraker-telegram-bot",
-        "nlef/moonraker-telegram-bot bot/klippy.py, bot/websocket_helper.py",
-        (
-            Call("printer/info", verb="GET"),
-            Call("access/oneshot_token", verb="GET"),
-            Call("printer/objects/list", verb="GET"),
-            Call("printer.info"),
-            Call("machine.device_power.devices", may_fail=True),
-            Call(
-                "printer.objects.subscribe",
-                {
-                    "objects": {
-                        "print_stats": None,
-                        "display_status": None,
-                        "toolhead": ["position"],
-                        "gcode_move": ["position", "gcode_position"],
-                        "virtual_sdcard": ["progress"],
-                    }
-                },
-            ),
-        ),
-        {"printer.info": ("state",), "printer/objects/list": ("objects",)},
-    ),
-    Client(
-        "Home Assistant",
-        "marcolivierarsenault/moonraker-home-assistant custom_components/moonraker",
-        (
-            Call("printer.info"),
-            Call("printer.objects.list"),
-            Call("printer.objects.query", {"objects": ALL}),
             Call("printer.gcode.help"),
-            Call("machine.device_power.devices"),
-            Call("machine.update.status"),
-            Call("server.history.totals"),
-            Call("server.webcams.list"),
+            Call("server.gcode_store"),
         ),
-        {"printer.info": ("hostname", "software_version", "state")},
+        {
+            "server.info": (*SERVER_INFO, "moonraker_version"),
+            "printer.info": ("state", "state_message"),
+        },
+        ("toolhead", "gcode_move", "motion_report", "print_stats", "configfile", "virtual_sdcard"),
     ),
+    *COMPANIONS,
     Client(
         "klipper-tui",
         "PyPI klipper-tui 0.20.2, klipper_tui/moonraker.py",

@@ -145,6 +145,33 @@ def test_endstops_and_commands_in_words():
     assert ask(rows, "printer.query_endstops.status") == {}
 
 
+def refusing(sentence):
+    def run(script, caller):
+        raise RequestRefused(409, sentence)
+
+    return SimpleNamespace(run=run)
+
+
+def test_a_script_that_is_refused_is_told_to_all():
+    told = []
+    rows = printer_methods(
+        None, refusing("Not now."), None, websocket_count=int, refused=told.append
+    )
+    with pytest.raises(RequestRefused, match="Not now"):
+        ask(rows, "printer.gcode.script", script="G28")
+    assert told == ["Not now."]
+
+
+def test_errors_that_the_printer_said_are_marked():
+    said = [("Error: no", "command"), ("Error: no", "response"), ("all is well", "response")]
+    lines = [{"message": text, "time": 1.0, "type": kind} for text, kind in said]
+    rows = printer_methods(
+        None, None, SimpleNamespace(latest=lambda count: lines), websocket_count=int
+    )
+    found = ask(rows, "server.gcode_store")["gcode_store"]
+    assert [line["message"] for line in found] == ["Error: no", "!! Error: no", "all is well"]
+
+
 # the computer
 
 
@@ -185,6 +212,27 @@ def test_bandwidth_is_what_has_passed_since(monkeypatch):
         "Previously Under-Volted",
         "Previously Throttled",
     ]
+
+
+def test_shares_are_of_no_instant():
+    now = 100.0
+    statistics = computer.Statistics(lambda: None, lambda: now)
+    first = statistics.statistics(1)
+    now = 100.4
+    again = statistics.statistics(2)
+    assert again["moonraker_stats"] == first["moonraker_stats"]
+    assert again["websocket_connections"] == 2
+    for now in (100.5, 10.0):
+        assert statistics.statistics(2)["moonraker_stats"][0]["time"] == now
+
+
+def test_news_of_the_computer_are_one_sample():
+    statistics = computer.Statistics(lambda: 0)
+    news = statistics.news(3)
+    assert news["websocket_connections"] == 3
+    assert news["moonraker_stats"]["memory"] > 1000
+    assert not {"throttled_state", "system_uptime"} & set(news)
+    assert {"cpu_temp", "network", "system_cpu_usage", "system_memory"} < set(news)
 
 
 @pytest.mark.parametrize("bits, told", [(None, None), (-1, None), (0, {"bits": 0, "flags": []})])
@@ -293,6 +341,24 @@ def test_no_supply_is_switched_off_during_a_print(device):
     power.print_state = "printing"
     refused(409, power.ask, "post_device", device=device, action="off")
     assert switched == power.sent == []
+
+
+def test_several_devices_by_their_names():
+    switched = []
+    power = Power(psu_control(switched))
+    both = dict.fromkeys(("machine", "PSUControl"))
+    assert power.ask("status", **both) == {"machine": "on", "PSUControl": "on"}
+    # as KlipperScreen switches them
+    assert power.ask("off", PSUControl=None) == {"PSUControl": "off"}
+    assert power.ask("on", **both) == {"machine": "on", "PSUControl": "on"}
+    assert switched == [False, True]
+    assert power.sent == [("power", {"on": True})]
+    for name in ("status", "off"):
+        refused(404, power.ask, name, machine=None, toaster=None)
+        refused(400, power.ask, name)
+    assert power.sent == [("power", {"on": True})]
+    with pytest.raises(RequestRefused):
+        ask(power.rows, "machine.device_power.on", caller("PLUGIN_RRFMODEL_READ"), machine=None)
 
 
 def test_switching_takes_what_it_takes():

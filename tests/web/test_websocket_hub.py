@@ -3,6 +3,7 @@
 import asyncio
 import json
 import threading
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -12,6 +13,7 @@ pytest.importorskip("octoprint")
 import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from any side
 from tornado.ioloop import IOLoop
 
+from octoprint_rrfmodel.web.moonraker import websocket
 from octoprint_rrfmodel.web.moonraker.methods import Methods
 from octoprint_rrfmodel.web.moonraker.off_loop import OffLoop
 from octoprint_rrfmodel.web.moonraker.printer_methods import printer_methods
@@ -93,6 +95,49 @@ def on_a_loop(test):
     return run
 
 
+def handshake(monkeypatch, token, shown):
+    """Return the caller that a handshake comes to, ``None`` where it is refused."""
+    redeemed = {"good": caller_like("redeemed")}
+    monkeypatch.setattr(websocket, "caller_of", lambda app, request, find_user: shown)
+    refusals = []
+    socket = SimpleNamespace(
+        _app=None,
+        _hub=SimpleNamespace(redeem=redeemed.get, find_user=None),
+        request=None,
+        get_query_argument=lambda name, otherwise: token,
+        set_status=refusals.append,
+        finish=lambda answer: None,
+    )
+    socket._without_token = partial(PrinterSocket._without_token, socket)
+    PrinterSocket.prepare(socket)
+    assert refusals == ([403] if socket.caller is None else [])
+    return socket.caller and (socket.caller.name, socket._has_token)
+
+
+def caller_like(name, is_of_session=False):
+    return SimpleNamespace(name=name, is_of_session=is_of_session, may_read=lambda: True)
+
+
+KEY, SESSION = caller_like("key"), caller_like("session", True)
+
+
+@pytest.mark.parametrize(
+    ("token", "shown", "found"),
+    [
+        (None, KEY, ("key", False)),
+        (None, SESSION, ("session", False)),
+        (None, None, None),
+        ("good", SESSION, ("redeemed", True)),
+        # KlipperScreen's, which has its key there
+        ("wrong", KEY, ("key", False)),
+        ("wrong", SESSION, None),
+        ("wrong", None, None),
+    ],
+)
+def test_who_is_let_in(monkeypatch, token, shown, found):
+    assert handshake(monkeypatch, token, shown) == found
+
+
 @on_a_loop
 async def test_the_loop_goes_on_while_a_query_is_worked_on(make):
     bench = make()
@@ -140,3 +185,15 @@ async def test_work_for_a_socket_that_is_gone_is_dropped(make):
     assert bench.queries == 1
     assert socket.got == other.got == []
     assert len(bench.hub._subscribers) == 0
+
+
+@on_a_loop
+async def test_an_error_is_said_as_klipper_says_it(make):
+    bench = make()
+    socket = Socket(bench.hub)
+    for line in ("Error: G28: no endstop", "Warning: cold"):
+        bench.hub.responded(line)
+    assert [each["params"] for each in socket.got] == [
+        ["!! Error: G28: no endstop"],
+        ["Warning: cold"],
+    ]

@@ -4,6 +4,7 @@
     World(model, host, kept.snapshot, eventtime)         one moment
     names, status, difference                            what a client gets of it
     temperature_store                                    the last hour, for charts
+    as_said, refusal                                     lines and refusals with Klipper's mark
 
 Objects and fields are as in Klipper's status reference; what they come from is in
 ``docs/klipper.md``.
@@ -12,6 +13,7 @@ Objects and fields are as in Klipper's status reference; what they come from is 
 from .info import printer_info, server_info
 from .kept import Kept
 from .query import OBJECTS, difference, names, status, wanted_of
+from .said import as_said, refusal
 from .temperature_store import STORE_SECONDS, temperature_store
 from .world import Accumulated, Host, HostJob, World
 
@@ -23,9 +25,11 @@ __all__ = [
     "HostJob",
     "Kept",
     "World",
+    "as_said",
     "difference",
     "names",
     "printer_info",
+    "refusal",
     "server_info",
     "status",
     "temperature_store",

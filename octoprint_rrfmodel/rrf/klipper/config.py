@@ -7,7 +7,8 @@ from typing import Any
 from ..views.machine import mapping
 from ..wire.gcode_words import number as shortly
 from .host import startup_error
-from .motion import max_accel, max_velocity
+from .motion import SECONDS, max_accel, max_velocity
+from .sections import ACCELERATION, SPEED
 from .values import text
 from .view import Row, View, one
 
@@ -17,11 +18,14 @@ def _settings(view: View) -> dict[str, dict[str, Any]]:
 
     Clients look for heaters and sensors among them, so that an empty one says something too.
     """
+    velocity, accel, z_speed = max_velocity(view), max_accel(view), view.of_axis("Z", "speed")
     printer = {
         # Klipper's names are RRF's in lower case: coreXY
-        "kinematics": text(mapping(view.move.get("kinematics")).get("name")).lower() or None,
-        "max_velocity": max_velocity(view),
-        "max_accel": max_accel(view),
+        "kinematics": text(mapping(view.move.get("kinematics")).get("name")).lower() or "none",
+        "max_velocity": SPEED if velocity is None else velocity,
+        "max_accel": ACCELERATION if accel is None else accel,
+        "max_z_velocity": None if z_speed is None else z_speed / SECONDS,
+        "max_z_accel": view.of_axis("Z", "acceleration"),
     }
     sections = {"printer": _known(printer)}
     for name, (row, thing) in view.objects.items():
@@ -34,7 +38,9 @@ def _known(options: Any) -> dict[str, Any]:
 
 
 def _as_written(value: Any) -> str:
-    return value if isinstance(value, str) else shortly(value)
+    if isinstance(value, list):
+        return ", ".join(map(_as_written, value))
+    return str(value) if isinstance(value, (str, bool)) else shortly(value)
 
 
 def _config(view: View, thing: Any) -> dict[str, dict[str, str]]:
@@ -42,6 +48,14 @@ def _config(view: View, thing: Any) -> dict[str, dict[str, str]]:
         section: {name: _as_written(value) for name, value in options.items()}
         for section, options in _settings(view).items()
     }
+
+
+def _in_lower_case(view: View, thing: Any) -> dict[str, dict[str, Any]]:
+    """Return the sections by the names that they have among Klipper's settings."""
+    settings: dict[str, dict[str, Any]] = {}
+    for name, options in _settings(view).items():
+        settings.setdefault(name.lower(), options)
+    return settings
 
 
 def _warnings(view: View, thing: Any) -> list[dict[str, str]]:
@@ -55,7 +69,7 @@ ROWS = (
         one("configfile"),
         {
             "config": _config,
-            "settings": lambda view, _: _settings(view),
+            "settings": _in_lower_case,
             # M500's override file is in no model
             "save_config_pending": lambda view, _: False,
             "save_config_pending_items": lambda view, _: {},

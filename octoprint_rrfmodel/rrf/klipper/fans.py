@@ -7,6 +7,7 @@ from typing import Any
 from ..views.machine import array, mapping
 from .kept import sensor_reading
 from .printer import Model, Printer
+from .sections import PIN
 from .values import element, first, fraction, named, number, text, whole
 from .view import Row, View, each, where
 
@@ -91,14 +92,27 @@ def _actual(view: View, fan: Model) -> float:
     return fraction(fan.get("actualValue", fan.get("requestedValue")))
 
 
-KINDS = {"fan_generic": _requested, "heater_fan": _actual, "controller_fan": _actual}
-"""Kinds of fans beside the part fan, and their speed."""
+def _section(view: View, fan: Model) -> dict[str, Any]:
+    return {"pin": PIN}
+
+
+def _ruled_section(view: View, fan: Model) -> dict[str, Any]:
+    # by which heaters is in no model, only by which sensors
+    return {"pin": PIN, "heater": []}
+
+
+KINDS = {
+    "fan_generic": (_requested, _section),
+    "heater_fan": (_actual, _ruled_section),
+    "controller_fan": (_actual, _ruled_section),
+}
+"""Kinds of fans beside the part fan, their speed and their section."""
 
 ROWS = (
-    Row("fan", where("fan", _part_fan), {"speed": _requested, "rpm": _rpm}),
+    Row("fan", where("fan", _part_fan), {"speed": _requested, "rpm": _rpm}, settings=_section),
     *(
-        Row(f"{kind} X", _other_fans(kind), {"speed": speed, "rpm": _rpm})
-        for kind, speed in KINDS.items()
+        Row(f"{kind} X", _other_fans(kind), {"speed": speed, "rpm": _rpm}, settings=section)
+        for kind, (speed, section) in KINDS.items()
     ),
     Row(
         "temperature_fan X",
@@ -110,5 +124,6 @@ ROWS = (
                 mapping(fan.get("thermostatic")).get("lowTemperature")
             ),
         },
+        settings=_section,
     ),
 )

@@ -9,6 +9,7 @@ from ..views.temperatures import ABSOLUTE_ZERO
 from .fans import thermostatic_fans
 from .kept import sensor_reading
 from .printer import Extruder, Model, Printer
+from .sections import HOTTEST_TOOL, of_extruder, of_heater
 from .values import named, number, reading, text
 from .view import Row, View, each, one, where
 
@@ -64,16 +65,6 @@ def _can_extrude(view: View, extruder: Extruder) -> bool | None:
     return None if limit is None or current is None else current >= limit
 
 
-def limits(heater: Model) -> dict[str, float | None]:
-    """Return what Klipper's section of a heater has, temperatures in °C."""
-    return {"min_temp": number(heater.get("min")), "max_temp": number(heater.get("max"))}
-
-
-def _extruder_settings(view: View, extruder: Extruder) -> dict[str, float | None]:
-    cold = number(view.heat.get("coldExtrudeTemperature"))
-    return {**limits(extruder.heater), "min_extrude_temp": cold}
-
-
 def _further_heaters(view: Printer) -> dict[str, Model]:
     """Return all heaters of a tool but its first, by the name of the generic heater they are."""
     found = {}
@@ -122,25 +113,25 @@ HEATERS = (
             "can_extrude": _can_extrude,
             "motion_queue": lambda view, _: None,
         },
-        settings=_extruder_settings,
+        settings=of_extruder,
     ),
     Row(
         "heater_bed",
         where("heater_bed", lambda view: view.slot("bedHeaters")),
         _HEATER,
-        settings=lambda view, heater: limits(heater),
+        settings=of_heater,
     ),
     Row(
         "heater_generic chamber",
         where("heater_generic chamber", lambda view: view.slot("chamberHeaters")),
         _HEATER,
-        settings=lambda view, heater: limits(heater),
+        settings=of_heater,
     ),
     Row(
         "heater_generic toolN_hM",
         each("heater_generic", _further_heaters),
         _HEATER,
-        settings=lambda view, heater: limits(heater),
+        settings=lambda view, heater: of_heater(view, heater, HOTTEST_TOOL),
     ),
 )
 

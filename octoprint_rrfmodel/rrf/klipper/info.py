@@ -12,9 +12,12 @@ from .world import World
 API_VERSION = (1, 5, 0)
 """Of Moonraker, whose forms are served."""
 
+NAME = "rrfmodel"
+"""In front of the plugin's version: Mainsail and Fluidd take a bare number for Klipper's."""
+
 
 def server_info(world: World, websocket_count: int, version: str) -> dict[str, Any]:
-    """Return ``server.info``; ``version`` stands where Moonraker has its own."""
+    """Return ``server.info``; the plugin's ``version`` stands where Moonraker has its own."""
     is_connected = world.host.is_connected
     return {
         "klippy_connected": is_connected,
@@ -24,7 +27,7 @@ def server_info(world: World, websocket_count: int, version: str) -> dict[str, A
         "registered_directories": ["gcodes", "printer"],
         "warnings": [],
         "websocket_count": websocket_count,
-        "moonraker_version": version,
+        "moonraker_version": _named(version),
         "missing_klippy_requirements": [],
         "api_version": list(API_VERSION),
         "api_version_string": ".".join(map(str, API_VERSION)),
@@ -32,7 +35,7 @@ def server_info(world: World, websocket_count: int, version: str) -> dict[str, A
 
 
 def printer_info(world: World, version: str, hostname: str) -> dict[str, Any]:
-    """Return ``printer.info``; ``version`` stands where Klipper has its own.
+    """Return ``printer.info``; the plugin's ``version`` stands where Klipper has its own.
 
     Paths and numbers of Klipper's process are empty, the board is what it says of a processor.
     """
@@ -51,6 +54,10 @@ def printer_info(world: World, version: str, hostname: str) -> dict[str, Any]:
         "group_id": None,
         "log_file": "",
         "config_file": "",
-        "software_version": version,
+        "software_version": _named(version),
         "cpu_info": " ".join(part for part in parts if part),
     }
+
+
+def _named(version: str) -> str:
+    return f"{NAME}-{version}"

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from ..views.machine import array, mapping
+from .past_jobs import CARD_ROOT
 from .values import element, number, text, whole
 from .view import Row, View, one, where
 from .world import HOST, PRINTING
 
 FOLDER = "0:/gcodes/"
-"""Where jobs lie; Klipper's names of files leave it out."""
+"""Where jobs lie; Klipper's names of files have the card's root in its place."""
 
 ACTIVE = frozenset(
     (
@@ -27,7 +28,7 @@ ACTIVE = frozenset(
 
 
 def _own_name(path: str) -> str:
-    return path[len(FOLDER) :] if path.lower().startswith(FOLDER) else path
+    return f"{CARD_ROOT}/{path[len(FOLDER) :]}" if path.lower().startswith(FOLDER) else path
 
 
 def _is_active(view: View, thing: Any) -> bool:

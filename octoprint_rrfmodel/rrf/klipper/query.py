@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -29,6 +30,8 @@ MOST_OBJECTS = 500
 MOST_FIELDS = 3000
 """What may be asked for at once: several times what a machine has, each thing counted once."""
 
+_NAMES = re.compile(r"\w+")
+
 Wanted = Mapping[str, "Sequence[str] | None"]
 """Objects and the fields wanted of each; ``None`` and an empty one are all of them."""
 
@@ -46,15 +49,17 @@ def names(world: World) -> list[str]:
 def status(world: World, wanted: Wanted) -> dict[str, dict[str, Any]]:
     """Return the fields wanted of each object, whatever the model holds.
 
-    An object that isn't there is ``{}``, a field that isn't ``None``. Every value is one that JSON
-    has. Only what is wanted is computed.
+    A field that isn't there is ``None``, of an object that isn't, too; without fields such an
+    object is ``{}``. Every value is one that JSON has. Only what is wanted is computed.
     """
     view = seen(world)
     known: dict[str, Mapping[str, Any]] = {}
     result = {}
     for name, fields in wanted.items():
         row, thing = _found(view, known, name)
-        result[name] = {} if row is None else _values(view, row, thing, fields)
+        # clients read what they have asked for without a look whether it is there
+        missing = dict.fromkeys(fields or ())
+        result[name] = missing if row is None else _values(view, row, thing, fields)
     return result
 
 
@@ -109,8 +114,8 @@ def _differs(old: Any, new: Any) -> bool:
 def wanted_of(objects: Any) -> dict[str, tuple[str, ...] | None]:
     """Return what a request's ``objects`` ask for.
 
-    Raises ``ValueError`` with a sentence for anything but names, each with null or a list of
-    texts, and for too many.
+    Raises ``ValueError`` with a sentence for anything but names, each with null, a list of texts
+    or a text with names in it, and for too many.
     """
     if not isinstance(objects, Mapping):
         raise ValueError("Objects are given by name, each with null or a list of its fields.")
@@ -121,6 +126,9 @@ def wanted_of(objects: Any) -> dict[str, tuple[str, ...] | None]:
     for name, fields in objects.items():
         if not isinstance(name, str):
             raise ValueError(f"The name of an object is a text, and {name!r} is none.")
+        if isinstance(fields, str):
+            # OctoEverywhere sends a set as Python writes it, Obico a single name
+            fields = _NAMES.findall(fields)
         if fields is not None and not _are_texts(fields):
             raise ValueError(f"The fields of {name!r} are null or a list of names.")
         # what is named twice is computed, compared and kept once

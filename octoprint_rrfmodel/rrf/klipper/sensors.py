@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..views.machine import array, mapping
+from ..wire.gcode_words import quoted
 from .macro_names import macro_names
 from .printer import Model, Printer
+from .sections import PIN
 from .values import element, named, number, text, truth
 from .view import Row, View, each, one, where
 
@@ -27,6 +29,13 @@ DETECTED = {
 
 SEE_MOTION = frozenset(("laser", "rotatingMagnet"))
 """Types of monitors that measure how far filament moves."""
+
+
+class Macro(NamedTuple):
+    """A macro: what is sent for it, and the variables that clients see in it."""
+
+    gcode: str
+    variables: Mapping[str, Any] = {}
 
 
 def _sensors(view: Printer, kind: str) -> list[Model]:
@@ -92,11 +101,13 @@ def _is_triggered(view: View, probe: Model) -> bool | None:
 
 
 def _macros(view: View) -> Mapping[str, Any]:
-    names: dict[str, Any] = dict.fromkeys(macro_names(view.host.macros), {})
+    macros = {
+        name: Macro(f"M98 P{quoted(path)}") for name, path in macro_names(view.host.macros).items()
+    }
     variables = view.model.get("global")
     if isinstance(variables, Mapping):
-        names["globals"] = variables
-    return names
+        macros["globals"] = Macro("", variables)
+    return macros
 
 
 def _of_prints(view: View) -> Mapping[str, Any]:
@@ -110,8 +121,8 @@ def _of_tools(view: View) -> Mapping[str, Any]:
 
 
 def _renamed(name: str) -> dict[str, str]:
-    """Return the option by which clients know a macro that they need no button for."""
-    return {"rename_existing": f"BASE_{name}"}
+    """Return the section of a macro that clients need no button for, by which they know it."""
+    return {"gcode": name, "rename_existing": f"BASE_{name}"}
 
 
 ROWS = (
@@ -121,6 +132,7 @@ ROWS = (
         "output_pin X",
         each("output_pin", _outputs),
         {"value": lambda view, output: number(output.get("pwm")) or 0.0},
+        settings=lambda view, output: {"pin": PIN, "pwm": True},
     ),
     Row(
         "query_endstops",
@@ -149,5 +161,11 @@ ROWS = (
         {"active": lambda view, tool: view.state.get("currentTool") == tool},
         settings=lambda view, tool: _renamed(f"T{tool}"),
     ),
-    Row("gcode_macro X", each("gcode_macro", _macros), {}, members=lambda variables: variables),
+    Row(
+        "gcode_macro X",
+        each("gcode_macro", _macros),
+        {},
+        members=lambda macro: macro.variables,
+        settings=lambda view, macro: {"gcode": macro.gcode},
+    ),
 )

@@ -14,6 +14,12 @@ import psutil
 
 KILOBYTE = 1024
 
+SHORTEST = 0.5
+"""Seconds that a share is of at least; who asks sooner is told the last again."""
+
+STAYS = ("throttled_state", "system_uptime")
+"""What Moonraker leaves out of the news of each second."""
+
 OS_RELEASE = "/etc/os-release"
 BOARD = "/proc/device-tree/model"
 
@@ -80,14 +86,26 @@ class Statistics:
         self._now = now
         self._process = psutil.Process()
         self._passed = {}, self._now()
+        self._told = None
         self._process.cpu_percent(None)
         psutil.cpu_percent(None)
         psutil.cpu_percent(None, percpu=True)
 
     def statistics(self, websocket_count):
         """Return ``machine.proc_stats``."""
-        memory = psutil.virtual_memory()
         now = self._now()
+        if self._told is None or not 0 <= now - self._told[0] < SHORTEST:
+            self._told = now, self._measured(now)
+        return {**self._told[1], "websocket_connections": websocket_count}
+
+    def news(self, websocket_count):
+        """Return what ``notify_proc_stat_update`` has: the same, of one sample."""
+        told = self.statistics(websocket_count)
+        changing = {name: value for name, value in told.items() if name not in STAYS}
+        return {**changing, "moonraker_stats": told["moonraker_stats"][-1]}
+
+    def _measured(self, now):
+        memory = psutil.virtual_memory()
         return {
             "moonraker_stats": [
                 {
@@ -107,7 +125,6 @@ class Statistics:
                 "used": memory.used // KILOBYTE,
             },
             "system_uptime": now - psutil.boot_time(),
-            "websocket_connections": websocket_count,
         }
 
     def _network(self, now):

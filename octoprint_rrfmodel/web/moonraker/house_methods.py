@@ -14,6 +14,8 @@ from .power import PowerDevices
 from .server_methods import server_methods
 from .webcams import webcam
 
+READ = "PLUGIN_RRFMODEL_READ"
+
 
 def house_methods(host, objects, sockets, tokens, parts):
     """Return the rows; ``sockets`` are told what is news of the power devices.
@@ -44,9 +46,11 @@ def house_methods(host, objects, sockets, tokens, parts):
         objects.model, parts.commands.command, host.plugins, print_state=print_state
     )
     sockets.watch(power.news)
+    statistics = Statistics(throttled)
+    sockets.each_second("notify_proc_stat_update", lambda: [statistics.news(sockets.count())], READ)
     return (
         *server_methods(webcams, temperature_store),
         *database_methods(Database(host.folder)),
-        *machine_methods(power, Statistics(throttled), websocket_count=sockets.count),
+        *machine_methods(power, statistics, websocket_count=sockets.count),
         *access_methods(tokens),
     )

@@ -30,6 +30,20 @@ def machine_methods(power, statistics, *, websocket_count):
     def post_device(call):
         return power.switch(call.text("device"), call.text("action"), call.caller)
 
+    def states(call):
+        return {name: state for each in _names(call) for name, state in power.state(each).items()}
+
+    def switching(action):
+        def switch(call):
+            names = _names(call)
+            # none is switched where there isn't one of them
+            for name in names:
+                power.state(name)
+            told = [power.switch(name, action, call.caller) for name in names]
+            return {name: state for each in told for name, state in each.items()}
+
+        return switch
+
     return (
         Method("machine.system_info", lambda call: {"system_info": computer.system_info()}),
         Method("machine.proc_stats", lambda call: statistics.statistics(websocket_count())),
@@ -37,8 +51,20 @@ def machine_methods(power, statistics, *, websocket_count):
         Method("machine.device_power.devices", lambda call: {"devices": power.listed()}),
         Method("machine.device_power.get_device", get_device),
         Method("machine.device_power.post_device", post_device, CONTROL),
+        Method("machine.device_power.status", states),
+        *(
+            Method(f"machine.device_power.{action}", switching(action), CONTROL, verbs=("POST",))
+            for action in ("on", "off")
+        ),
         *(Method(name, _refuse, CONTROL, verbs=("POST",)) for name in OCTOPRINTS),
     )
+
+
+def _names(call):
+    """Return the devices that a call names by its parameters; their values mean nothing."""
+    if not call.params:
+        raise RequestRefused(400, gettext("%(name)s is missing.", name="device"))
+    return list(call.params)
 
 
 OCTOPRINTS = (

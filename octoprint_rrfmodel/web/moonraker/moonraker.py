@@ -68,6 +68,7 @@ class Moonraker:
                     self.store,
                     websocket_count=self.sockets.count,
                     components=lambda: components_of(methods),
+                    refused=self.sockets.refused,
                 ),
                 *restart_methods(parts.commands),
                 *connection_methods(),

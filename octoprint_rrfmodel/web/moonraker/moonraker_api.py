@@ -128,12 +128,17 @@ def _params(path):
 
 def _body():
     if flask.request.mimetype == MULTIPART:
-        return {
-            name: value for name, value in flask.request.form.items() if name not in NO_PARAMETERS
-        }
+        return _form()
     # OctoPrint's server hands on no body of other requests
-    body = json_of(flask.request, force=True) if flask.request.method == "POST" else None
-    return body if isinstance(body, dict) else {}
+    if flask.request.method != "POST":
+        return {}
+    # of both kinds, whatever it says that it is: curl calls all a form, Obico sends one
+    body = json_of(flask.request, force=True)
+    return body if isinstance(body, dict) else _form()
+
+
+def _form():
+    return {name: value for name, value in flask.request.form.items() if name not in NO_PARAMETERS}
 
 
 def _upload():

@@ -10,18 +10,25 @@ from .methods import CONTROL, Method
 EMERGENCY_STOP = "printer.emergency_stop"
 
 
-def printer_methods(objects, scripts, store, *, websocket_count, components=list):
+def printer_methods(
+    objects, scripts, store, *, websocket_count, components=list, refused=lambda text: None
+):
     """Return the rows; ``websocket_count()`` is the number of sockets that are open.
 
     ``components()`` names the parts of Moonraker that are here. ``objects`` gives the printer
-    objects, ``scripts`` sends G-code, ``store`` has what was said.
+    objects, ``scripts`` sends G-code, ``store`` has what was said. ``refused(text)`` is told why a
+    script was.
     """
 
     def server_info(call):
         return {**objects.server_info(websocket_count()), "components": components()}
 
     def run_script(call):
-        scripts.run(call.params.get("script"), call.caller)
+        try:
+            scripts.run(call.params.get("script"), call.caller)
+        except RequestRefused as error:
+            refused(str(error))
+            raise
         return "ok"
 
     def stop(call):
@@ -71,4 +78,10 @@ def endstops(objects):
 
 def said_lately(call, store):
     """Return the latest commands and responses."""
-    return {"gcode_store": store.latest(min(call.whole("count", MOST_LINES), MOST_LINES))}
+    lines = store.latest(min(call.whole("count", MOST_LINES), MOST_LINES))
+    return {"gcode_store": [{**line, "message": _marked(line)} for line in lines]}
+
+
+def _marked(line):
+    is_said = line["type"] == "response"
+    return klipper.as_said(line["message"]) if is_said else line["message"]

@@ -3,6 +3,7 @@
 from octoprint.access.users import LoginStatusListener
 from tornado.ioloop import IOLoop
 
+from ...rrf.klipper import refusal
 from . import jsonrpc
 from .off_loop import OffLoop
 from .subscribers import Subscribers
@@ -25,6 +26,7 @@ class Sockets(LoginStatusListener):
         self._clock = clock
         self._redeem = redeem
         self._watched = []
+        self._each_second = []
         self._ticked_at = 0.0
         self._loop = None
         self._is_announced = False
@@ -50,6 +52,14 @@ class Sockets(LoginStatusListener):
         It gives what there is to tell: names of notifications, each with its parameters.
         """
         self._watched.append(news)
+
+    def each_second(self, method, params, permission):
+        """Have those with a permission told ``params()`` each second.
+
+        Some clients take silence for the end of a connection. Any thread calls it, and not while
+        there are no sockets.
+        """
+        self._each_second.append((method, params, permission))
 
     def count(self):
         """Return how many sockets are open."""
@@ -90,6 +100,10 @@ class Sockets(LoginStatusListener):
         """Tell the sockets a line that the printer said."""
         self._on_loop("responded", text)
 
+    def refused(self, text):
+        """Tell the sockets of a script that was refused: many clients look at no answer."""
+        self._on_loop("responded", refusal(text))
+
     def tell(self, method, params, permission):
         """Tell something to those who have one of OctoPrint's permissions; any thread."""
         self._on_loop("notify", method, params, permission)
@@ -106,6 +120,9 @@ class Sockets(LoginStatusListener):
         self._ticked_at = self._clock()
         self.announce()
         self._on_loop("look_again")
+        if self.count():
+            for method, params, permission in self._each_second:
+                self.tell(method, params(), permission)
         return TICK_SECONDS
 
     ##~~ LoginStatusListener

@@ -11,10 +11,11 @@ import tornado.websocket
 from flask_babel import gettext
 
 from ...host.answers import RequestRefused
+from ...rrf.klipper import as_said
 from ..access import WithoutKeys, caller_of, caller_of_key
 from ..origin import is_own
 from . import jsonrpc
-from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
+from .jsonrpc import METHOD_NOT_FOUND, RpcError
 from .methods import Call, run
 from .printer_methods import EMERGENCY_STOP
 
@@ -52,14 +53,21 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
     def prepare(self):
         """Let in who shows a key, a token or a session and has READ: OctoPrint checks nothing."""
         token = self.get_query_argument("token", None)
-        self._has_token = token is not None
-        if self._has_token:
-            self.caller = self._hub.redeem(token)
-        else:
-            self.caller = caller_of(self._app, self.request, self._hub.find_user)
+        self.caller = None if token is None else self._hub.redeem(token)
+        self._has_token = self.caller is not None
+        if not self._has_token:
+            self.caller = self._without_token(token is not None)
         if self.caller is None or not self.caller.may_read():
             self.set_status(403)
             self.finish({"error": "You may not read the machine's model."})
+
+    def _without_token(self, is_wrong):
+        """Return who shows a key or a session; beside a token that is wrong only a key counts.
+
+        KlipperScreen has its key in the place of a token, and as a key too.
+        """
+        caller = caller_of(self._app, self.request, self._hub.find_user)
+        return None if is_wrong and caller is not None and caller.is_of_session else caller
 
     def check_origin(self, origin):
         """Return whether a page may open this: any that has a key or a token, of sessions only
@@ -191,8 +199,7 @@ class SocketHub:
         try:
             return run(found, Call(params, asking.socket.caller, asking))
         except RequestRefused as error:
-            code = INVALID_PARAMS if error.status == 400 else REFUSED
-            raise RpcError(code, str(error)) from None
+            raise jsonrpc.refusal(error.status, str(error)) from None
 
     def changed(self):
         """Tell the sockets what is new; called after each reply and each news of OctoPrint's."""
@@ -208,7 +215,7 @@ class SocketHub:
 
     def responded(self, line):
         """Tell the sockets a line that the printer said."""
-        self.tell(jsonrpc.notification("notify_gcode_response", [line]))
+        self.tell(jsonrpc.notification("notify_gcode_response", [as_said(line)]))
 
     def notify(self, method, params, permission):
         """Tell something to the sockets whose users have a permission."""

@@ -115,12 +115,13 @@ def test_script_by_address_and_by_body(server, board):
     before = len(board.board.received())
     address = f"{BASE}/printer/gcode/script"
     assert result(server.post(address, params={"script": "M117 one\r\nM117 two"})) == "ok"
-    assert result(server.post(address, json={"script": "M117 Grüße 3"})) == "ok"
+    assert result(server.post(address, data={"script": "M117 Grüße 3"})) == "ok"
+    assert result(server.post(address, json={"script": "M117 Grüße 4"})) == "ok"
     server.wait_for(
-        lambda: "M117 Grüße 3" in helpers.commands(board)[before:], 10, "the third line"
+        lambda: "M117 Grüße 4" in helpers.commands(board)[before:], 10, "the fourth line"
     )
     sent = [line for line in helpers.commands(board)[before:] if line.startswith("M117")]
-    assert sent == ["M117 one", "M117 two", "M117 Grüße 3"]
+    assert sent == ["M117 one", "M117 two", "M117 Grüße 3", "M117 Grüße 4"]
 
 
 def test_without_a_printer(server_factory):

@@ -17,7 +17,8 @@ from moonraker_client import AsyncMoonrakerClient, MoonrakerClient
 from moonrakerpy import MoonrakerPrinter
 from pymoonraker import MoonrakerClient as PyMoonrakerClient
 
-from tests.clients.moonraker_calls import ALL, CLIENTS
+from tests.clients.moonraker_call import ALL
+from tests.clients.moonraker_calls import CLIENTS
 from tests.support import coroutines, ports
 from tests.support.basedir import ADMIN, OPERATOR, READER
 from tests.support.places import ROOT
@@ -25,6 +26,8 @@ from tests.support.places import ROOT
 BOARD = {"machine": "cartesian"}
 
 SETTING = "plugins.rrfmodel.moonraker"
+
+NOT_FOUND = 404
 
 NO_METHOD = -32601
 
@@ -51,12 +54,13 @@ def root(server):
 class Socket:
     """A client's socket: one call after the other."""
 
-    def __init__(self, url, **options):
+    def __init__(self, url, query="", **options):
         self._socket = websocket.WebSocket()
         self._socket.settimeout(15)
         self._last = 0
         try:
-            self._socket.connect(url.replace("http", "ws", 1) + "/websocket", **options)
+            address = url.replace("http", "ws", 1) + "/websocket" + query
+            self._socket.connect(address, **options)
         except websocket.WebSocketBadStatusException:
             self._socket.shutdown()
             raise
@@ -162,15 +166,18 @@ def test_a_port_that_is_taken_is_told_and_another_may_be_chosen(server, root):
 def asked(client, root):
     """Return method and answer of each call that a client makes, in its order."""
     key = {"X-Api-Key": ADMIN.api_key}
-    with Socket(root, **keyed()) as socket:
+    with Socket(root, client.query.replace("KEY", ADMIN.api_key), **keyed()) as socket:
         listed = socket.answer("printer.objects.list", {})["result"]["objects"]
         for call in client.calls:
             params = dict(call.params)
             if params.get("objects") == ALL:
                 params["objects"] = dict.fromkeys(listed)
+            if params.get("api_key") == "KEY":
+                params["api_key"] = ADMIN.api_key
             if call.verb:
+                place = "params" if call.verb == "GET" else "data" if call.is_form else "json"
                 found = requests.request(
-                    call.verb, f"{root}/{call.method}", params=params, headers=key, timeout=15
+                    call.verb, f"{root}/{call.method}", headers=key, timeout=15, **{place: params}
                 )
                 yield call, found.json()
             else:
@@ -182,12 +189,11 @@ def test_no_call_of_a_client_s_start_fails(root, client):
     for call, found in asked(client, root):
         error = found.get("error")
         if error is not None:
-            assert call.may_fail, (call, error)
+            # Mainsail takes anything but 404 for the file
+            assert call.may_fail and error["code"] in (NOT_FOUND, NO_METHOD), (call, error)
             continue
         for name in client.results.get(call.method, ()):
             assert name in found["result"], call
-    listed = next(found for call, found in asked(client, root) if "result" in found)
-    assert listed
     with Socket(root, **keyed()) as socket:
         listed = socket.answer("printer.objects.list", {})["result"]["objects"]
     assert set(client.objects) <= set(listed)

@@ -79,14 +79,16 @@ def test_unknown_objects_and_fields():
             "extruder": ["target", "nosuch"],
             "extruder9": ["target"],
             "fan nosuch": [],
+            "system_stats": ["sysload"],
             "heater_generic chamber": ("target",),
         },
     ) == {
         "nosuch": {},
         "extruder": {"target": 0.0, "nosuch": None},
-        "extruder9": {},
+        "extruder9": {"target": None},
         "fan nosuch": {},
-        "heater_generic chamber": {},
+        "system_stats": {"sysload": None},
+        "heater_generic chamber": {"target": None},
     }
 
 
@@ -163,8 +165,13 @@ def test_wanted_of():
     assert wanted_of({}) == {}
 
 
+def test_a_text_stands_for_the_names_in_it():
+    wanted = wanted_of({"fan": "speed", "print_stats": "{'state', 'filename'}", "toolhead": ""})
+    assert wanted == {"fan": ("speed",), "print_stats": ("state", "filename"), "toolhead": None}
+
+
 @pytest.mark.parametrize(
-    "objects", [None, [], "a", 5, {"a": "x"}, {"a": 5}, {"a": [1]}, {"a": {"x": None}}, {5: None}]
+    "objects", [None, [], "a", 5, {"a": True}, {"a": 5}, {"a": [1]}, {"a": {"x": None}}, {5: None}]
 )
 def test_wanted_of_anything_else_is_refused_with_a_sentence(objects):
     with pytest.raises(ValueError, match=r"^[A-Z].*\.$"):

@@ -172,11 +172,11 @@ def test_macros_are_named_so_that_they_can_be_sent():
 
 def test_macros_that_need_no_button_say_so():
     at = world(model_of("toolchanger"), MACROS)
-    settings = get(at, "configfile", "settings")
-    hidden = {name for name, section in settings.items() if "rename_existing" in section}
+    config = get(at, "configfile", "config")
+    hidden = {name for name, section in config.items() if "rename_existing" in section}
     assert hidden == {*OF_PRINTS, *(f"gcode_macro T{tool}" for tool in (1, 3, 7, 10))}
-    assert settings["gcode_macro PAUSE"] == {"rename_existing": "BASE_PAUSE"}
-    assert "gcode_macro Park" in settings
+    assert config["gcode_macro PAUSE"] == {"gcode": "PAUSE", "rename_existing": "BASE_PAUSE"}
+    assert config["gcode_macro Park"] == {"gcode": 'M98 P"0:/macros/Park.g"'}
 
 
 def test_tools_where_there_is_a_choice():
