@@ -52,6 +52,10 @@ ON_A_PRINT = (
 IN_REPLIES = tuple(each for each in ON_A_PRINT if each.name not in ("lost_ok", "extra_ok"))
 """The same where no line is to be waited for half a minute, or to be early."""
 
+ON_A_NEW_LINE = tuple(each for each in IN_REPLIES if each.name != "glued_before")
+"""The same where OctoPrint connects: it knows an ok by the beginning of a line, gives up without
+one, and until it knows the firmware no plugin changes a line."""
+
 WHILE_IDLE = (
     *ON_A_PRINT,
     Companion("slow", seconds=0.5),

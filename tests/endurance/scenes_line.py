@@ -3,7 +3,7 @@
 from tests.e2e import helpers
 from tests.support.waiting import within
 
-from .companions import IN_REPLIES
+from .companions import ON_A_NEW_LINE
 from .rig import MACHINES
 from .scene import Harmed, Scene
 
@@ -110,7 +110,7 @@ SCENES = (
         "OctoPrint disconnects and connects three times",
         "the whole model is there each time",
         reconnected,
-        companions=IN_REPLIES,
+        companions=ON_A_NEW_LINE,
         events={"Disconnected": 3, "Connected": 3},
         breaks_line=True,
     ),

@@ -9,12 +9,20 @@ from .scene import Harmed, Scene
 def tools(rig):
     for number in [*rig.random.choices([*rig.tools(), -1], k=4), rig.random.choice(rig.tools())]:
         way = rig.random.choice(["plugin", "terminal", "machine"])
+        before = rig.received()
         if way == "plugin":
             rig.command("select_tool", tool=number)
         elif way == "terminal":
             rig.server.commands(f"T{number}")
         else:
             rig.at_the_machine(f"T{number}")
+        if way != "machine":
+            # or it may come behind what somebody does at the machine next
+            rig.wait(
+                lambda before=before: any(line.startswith("T") for line in rig.commands(before)),
+                20,
+                "the tool's command",
+            )
         rig.wait_value("state.currentTool", number)
 
 
