@@ -125,7 +125,7 @@ class Rig:
         """Return the G-code that has come since there were so many lines."""
         with self.board.board.lock:
             texts = [entry.text for entry in self.board.board.log[since:]]
-        return [helpers.NUMBERED.match(text)["command"].strip() for text in texts]
+        return [helpers.command_of(text) for text in texts]
 
     ##~~ OctoPrint
 
