@@ -36,7 +36,7 @@ HOST_PHASES = {"printing": PRINTING, "paused": PAUSED}
 STATES = {PRINTING: "printing", CANCELLING: "printing", PAUSED: "paused"}
 """``print_stats.state`` of each phase."""
 
-ENDED_STATES = {"complete": "complete", "cancelled": "cancelled", "error": "error"}
+ENDED_STATES = {"complete": "complete", "cancelled": "standby", "error": "error"}
 """``print_stats.state`` of each way that a job ends."""
 
 ENDINGS = (

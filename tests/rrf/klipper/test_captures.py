@@ -89,7 +89,7 @@ def test_cancelled_job_of_a_real_board(captures):
             state = get(at, "print_stats", "state")
             if states[-1:] != [state]:
                 states.append(state)
-        assert states == ["standby", "printing", "paused", "cancelled"]
+        assert states == ["standby", "printing", "paused", "standby"]
         assert get(at, "print_stats", "filename") == "printer/TatoCage-0.3mm.gcode"
         assert get(at, "virtual_sdcard", "is_active") is False
         assert whole(at, "display_status")["progress"] == pytest.approx(548 / 5723298)

@@ -257,7 +257,7 @@ HOST_JOBS = [
     ),
     pytest.param(
         {"position": 250, "state": "cancelled"},
-        {"state": "cancelled", "is_active": False, "progress": 0.25, "message": ""},
+        {"state": "standby", "is_active": False, "progress": 0.25, "message": ""},
         id="cancelled",
     ),
     pytest.param(

@@ -71,23 +71,23 @@ SEQUENCES = [
     # the text says it
     pytest.param(["processing", FINISHED, "idle"], "complete", id="finished, then idle"),
     pytest.param(["processing", "idle", FINISHED], "complete", id="idle, then finished"),
-    pytest.param(["processing", CANCELLED, "idle"], "cancelled", id="cancelled, then idle"),
-    pytest.param(["processing", "idle", CANCELLED], "cancelled", id="idle, then cancelled"),
-    pytest.param([ALMOST, CANCELLED, "idle"], "cancelled", id="cancelled at the end"),
+    pytest.param(["processing", CANCELLED, "idle"], "standby", id="cancelled, then idle"),
+    pytest.param(["processing", "idle", CANCELLED], "standby", id="idle, then cancelled"),
+    pytest.param([ALMOST, CANCELLED, "idle"], "standby", id="cancelled at the end"),
     pytest.param(["paused", FINISHED, "busy", "idle"], "complete", id="text before the status"),
     pytest.param(["processing", SIMULATED, "idle"], "complete", id="simulated"),
     pytest.param(["processing", OTHER, "idle"], "error", id="text about another"),
     pytest.param([ALMOST, OTHER, "idle"], "complete", id="text about another, at the end"),
     # the status says it
-    pytest.param(["processing", "cancelling", "idle"], "cancelled", id="cancelling"),
-    pytest.param([ALMOST, "cancelling", "busy", "idle"], "cancelled", id="cancelling, busy"),
+    pytest.param(["processing", "cancelling", "idle"], "standby", id="cancelling"),
+    pytest.param([ALMOST, "cancelling", "busy", "idle"], "standby", id="cancelling, busy"),
     pytest.param(["processing", "cancelling"], "printing", id="cancelling isn't over"),
-    pytest.param(["paused", "busy"], "cancelled", id="paused, busy"),
-    pytest.param(["paused", "busy", "idle"], "cancelled", id="paused, busy, idle"),
-    pytest.param(["pausing", "paused", CANCELLED, "busy", "idle"], "cancelled", id="as 3.4.5 did"),
-    pytest.param(["paused", "idle"], "cancelled", id="paused, idle"),
-    pytest.param(["pausing", "idle"], "cancelled", id="pausing, idle"),
-    pytest.param(["paused", BEHIND["busy"]], "cancelled", id="paused, busy before the rest"),
+    pytest.param(["paused", "busy"], "standby", id="paused, busy"),
+    pytest.param(["paused", "busy", "idle"], "standby", id="paused, busy, idle"),
+    pytest.param(["pausing", "paused", CANCELLED, "busy", "idle"], "standby", id="as 3.4.5 did"),
+    pytest.param(["paused", "idle"], "standby", id="paused, idle"),
+    pytest.param(["pausing", "idle"], "standby", id="pausing, idle"),
+    pytest.param(["paused", BEHIND["busy"]], "standby", id="paused, busy before the rest"),
     pytest.param(["paused", "resuming", "processing", "idle"], "error", id="resumed, then gone"),
     pytest.param(["paused", "resuming", ALMOST, "idle"], "complete", id="resumed, then over"),
     # nothing says it
@@ -126,8 +126,8 @@ SEQUENCES = [
         [ALMOST, FINISHED, at(job__duration=5), "idle"], "error", id="again, not idle between"
     ),
     pytest.param(["idle", FINISHED], "complete", id="began and ended between two replies"),
-    pytest.param(["idle", OTHER], "cancelled", id="began and was cancelled between two replies"),
-    pytest.param([ALMOST, "idle", OTHER], "cancelled", id="another between two replies"),
+    pytest.param(["idle", OTHER], "standby", id="began and was cancelled between two replies"),
+    pytest.param([ALMOST, "idle", OTHER], "standby", id="another between two replies"),
     pytest.param(["idle"], "standby", id="none"),
     pytest.param(["halted"], "standby", id="halted without one"),
     pytest.param(["busy"], "standby", id="busy without one"),
@@ -179,26 +179,26 @@ HOST_SEQUENCES = [
     pytest.param([host_job()], "printing", id="printing"),
     pytest.param([host_job(), host_job(state="paused")], "paused", id="paused"),
     pytest.param([host_job(), host_job(state="complete")], "complete", id="complete"),
-    pytest.param([host_job(), host_job(state="cancelled")], "cancelled", id="cancelled"),
+    pytest.param([host_job(), host_job(state="cancelled")], "standby", id="cancelled"),
     pytest.param([host_job(), host_job(state="error")], "error", id="error"),
     pytest.param([host_job(), host_job(state="complete"), None], "complete", id="kept"),
     pytest.param([host_job(position=999), None], "complete", id="gone at the end"),
     pytest.param([host_job(position=500), None], "error", id="gone in the middle"),
     pytest.param(
         [host_job(), host_job(state="error"), host_job(state="cancelled")],
-        "cancelled",
+        "standby",
         id="second word",
     ),
     pytest.param([host_job(), host_job(state="cancelled"), host_job()], "printing", id="again"),
     pytest.param([host_job(), "processing"], "printing", id="the card's goes before"),
     pytest.param(
         [host_job(state="complete"), ALMOST, CANCELLED, "idle"],
-        "cancelled",
+        "standby",
         id="the card's was later",
     ),
     pytest.param(
         [ALMOST, "idle", host_job(), host_job(state="cancelled")],
-        "cancelled",
+        "standby",
         id="the host's was later",
     ),
     pytest.param([host_job(), CANCELLED], "printing", id="a text about the card's"),
@@ -350,7 +350,7 @@ def test_simulated_print_that_is_cancelled(firmware):
     assert machine.get("virtual_sdcard", "is_active") is False
     assert machine.get("pause_resume", "is_paused") is True
     machine.send("M0")
-    assert states_of(machine, is_idle)[-1] == "cancelled"
+    assert states_of(machine, is_idle)[-1] == "standby"
     assert machine.get("print_stats", "filename") == "printer/square.gcode"
 
 
@@ -430,5 +430,5 @@ def test_kept_may_be_used_by_several_threads():
     threads[1].join()
     done.set()
     threads[0].join()
-    assert seen <= {"printing", "standby", "cancelled", "error"}
+    assert seen <= {"printing", "standby", "error"}
     assert kept.snapshot.at == 299.0
