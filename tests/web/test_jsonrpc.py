@@ -7,14 +7,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from octoprint_rrfmodel.web.moonraker import jsonrpc
-from octoprint_rrfmodel.web.moonraker.jsonrpc import RpcError, refusal, respond
+from octoprint_rrfmodel.web.moonraker.jsonrpc import RpcError, respond
 
 
 def run(method, params):
     if method == "subtract":
         return params["minuend"] - params["subtrahend"]
     if method == "refused":
-        raise refusal(409, "Not now.")
+        raise RpcError(jsonrpc.REFUSED, "Not now.")
     raise RpcError(jsonrpc.METHOD_NOT_FOUND, "There is no such method.")
 
 
@@ -58,7 +58,7 @@ FAILURES = [
     ("a batch too large", json.dumps([call(params=NUMBERS)] * 21), -32600, None),
     ("an unknown method", json.dumps(call(method="foobar")), -32601, 1),
     ("parameters by position", json.dumps(call(params=[42, 23])), -32602, 1),
-    ("a refusal", json.dumps(call(method="refused")), 409, 1),
+    ("a refusal", json.dumps(call(method="refused")), -32000, 1),
 ]
 
 
@@ -78,14 +78,6 @@ def test_failure(text, code, identifier):
     assert answer["error"]["code"] == code
     assert answer["error"]["message"].endswith(".")
     assert answer["id"] == identifier
-
-
-@pytest.mark.parametrize(
-    "status, code", [(400, 400), (401, -32602), (403, 403), (404, -32601), (409, 409), (504, 504)]
-)
-def test_a_refusal_has_moonrakers_code(status, code):
-    error = refusal(status, "Why.")
-    assert (error.code, str(error)) == (code, "Why.")
 
 
 def without_id(**members):

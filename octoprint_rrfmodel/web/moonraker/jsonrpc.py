@@ -10,9 +10,7 @@ INVALID_REQUEST = -32600
 METHOD_NOT_FOUND = -32601
 INVALID_PARAMS = -32602
 INTERNAL_ERROR = -32603
-
-CODES = {401: INVALID_PARAMS, 404: METHOD_NOT_FOUND}
-"""Of refusals whose code isn't HTTP's status, as Moonraker has them (``moonraker/common.py``)."""
+REFUSED = -32000
 
 MOST_AT_ONCE = 20
 """Calls that one message may hold."""
@@ -35,11 +33,6 @@ class RpcError(Exception):
     def __init__(self, code, message):
         super().__init__(message)
         self.code = code
-
-
-def refusal(status, text):
-    """Return the error for what is refused, by HTTP's status; Fluidd shows 400 to 499 alone."""
-    return RpcError(CODES.get(status, status), text)
 
 
 def call_of(message):

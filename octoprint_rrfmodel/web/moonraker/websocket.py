@@ -15,7 +15,7 @@ from ...rrf.klipper import as_said
 from ..access import WithoutKeys, caller_of, caller_of_key
 from ..origin import is_own
 from . import jsonrpc
-from .jsonrpc import METHOD_NOT_FOUND, RpcError
+from .jsonrpc import INVALID_PARAMS, METHOD_NOT_FOUND, REFUSED, RpcError
 from .methods import Call, run
 from .printer_methods import EMERGENCY_STOP
 
@@ -199,7 +199,8 @@ class SocketHub:
         try:
             return run(found, Call(params, asking.socket.caller, asking))
         except RequestRefused as error:
-            raise jsonrpc.refusal(error.status, str(error)) from None
+            code = INVALID_PARAMS if error.status == 400 else REFUSED
+            raise RpcError(code, str(error)) from None
 
     def changed(self):
         """Tell the sockets what is new; called after each reply and each news of OctoPrint's."""

@@ -194,13 +194,13 @@ def test_queries(socket):
     "method, params, code",
     [
         ("printer.objects.nonsense", {}, -32601),
-        ("printer.objects.query", {}, 400),
-        ("printer.objects.query", {"objects": ["toolhead"]}, 400),
-        ("printer.objects.query", {"objects": {"toolhead": 5}}, 400),
-        ("printer.objects.subscribe", {"objects": {"toolhead": [1]}}, 400),
-        ("printer.gcode.script", {}, 400),
-        ("printer.gcode.script", {"script": "M117 a\x07"}, 400),
-        ("printer.gcode.script", {"script": 'M117 "a'}, 400),
+        ("printer.objects.query", {}, -32602),
+        ("printer.objects.query", {"objects": ["toolhead"]}, -32602),
+        ("printer.objects.query", {"objects": {"toolhead": 5}}, -32602),
+        ("printer.objects.subscribe", {"objects": {"toolhead": [1]}}, -32602),
+        ("printer.gcode.script", {}, -32602),
+        ("printer.gcode.script", {"script": "M117 a\x07"}, -32602),
+        ("printer.gcode.script", {"script": 'M117 "a'}, -32602),
     ],
 )
 def test_refuses_what_it_can_not_read(socket, board, method, params, code):
@@ -232,8 +232,8 @@ def test_script_goes_to_the_printer(socket, board, server):
 def test_reader_may_not_control(server, board):
     before = len(board.board.received())
     with Socket(server, READER) as socket:
-        assert socket.error("printer.gcode.script", script="M117 no") == 403
-        assert socket.error("printer.emergency_stop") == 403
+        assert socket.error("printer.gcode.script", script="M117 no") == -32000
+        assert socket.error("printer.emergency_stop") == -32000
         assert socket.result("printer.info")["state"] == "ready"
     sent = helpers.commands(board)[before:]
     assert not {"M117 no", "M112"} & set(sent)
