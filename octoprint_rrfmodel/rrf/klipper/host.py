@@ -76,7 +76,7 @@ LAST_STATS = (
     "upcoming_bytes",
     "freq",
 )
-"""Statistics of Klipper's own protocol; RRF has none of them, and clients calculate with them."""
+"""Statistics of Klipper's own protocol; RRF has none of them."""
 
 
 def klippy_state(view: View) -> tuple[str, str]:
@@ -129,7 +129,7 @@ def _other_boards(view: View) -> Mapping[str, Any]:
 _MCU = {
     "mcu_version": lambda view, board: text(board.get("firmwareVersion")) or None,
     "mcu_constants": lambda view, board: {"MCU": text(board.get("shortName")) or None},
-    "last_stats": lambda view, board: dict.fromkeys(LAST_STATS, 0),
+    "last_stats": lambda view, board: dict.fromkeys(LAST_STATS),
 }
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from ..views.machine import array, mapping
-from .past_jobs import CARD_ROOT
 from .values import element, number, text, whole
 from .view import Row, View, one, where
 from .world import HOST, PRINTING
 
 FOLDER = "0:/gcodes/"
-"""Where jobs lie; Klipper's names of files have the card's root in its place."""
+"""Where jobs lie; Klipper's names of files leave it out."""
 
 ACTIVE = frozenset(
     (
@@ -28,7 +27,7 @@ ACTIVE = frozenset(
 
 
 def _own_name(path: str) -> str:
-    return f"{CARD_ROOT}/{path[len(FOLDER) :]}" if path.lower().startswith(FOLDER) else path
+    return path[len(FOLDER) :] if path.lower().startswith(FOLDER) else path
 
 
 def _is_active(view: View, thing: Any) -> bool:

@@ -161,18 +161,12 @@ def _mesh_corner(name: str) -> Any:
     return field
 
 
-def _mesh_matrix(view: View, thing: Any) -> list[list[float]]:
-    """Return the heights of the mesh in use, a list for each Y, where its file was read.
-
-    What was not probed has the mean height: clients calculate with each, and so the lowest and the
-    highest stay what they are.
-    """
+def _mesh_matrix(view: View, thing: Any) -> list[list[float | None]]:
+    """Return the heights of the mesh in use, a list for each Y, where its file was read."""
     found = view.host.heights
     if found is None or not _mesh_profile(view, thing):
         return [[]]
-    probed = [height for row in found.points for height in row if height is not None]
-    mean = round(sum(probed) / len(probed), 3) if probed else 0.0
-    rows = [[mean if height is None else height for height in row] for row in found.points]
+    rows = [list(row) for row in found.points]
     if found.axes == ("Y", "X"):
         return [list(column) for column in zip(*rows)]
     return rows if found.axes == ("X", "Y") else [[]]
@@ -201,8 +195,7 @@ ROWS = (
             "homed_axes": _homed_axes,
             "print_time": _print_time,
             "estimated_print_time": _print_time,
-            # Klipper has always one, and clients take it for a name without a look
-            "extruder": lambda view, _: view.extruder or next(iter(view.extruders), ""),
+            "extruder": lambda view, _: view.extruder,
             "position": _machine_position,
             "max_velocity": lambda view, _: max_velocity(view),
             "max_accel": lambda view, _: max_accel(view),

@@ -49,17 +49,15 @@ def names(world: World) -> list[str]:
 def status(world: World, wanted: Wanted) -> dict[str, dict[str, Any]]:
     """Return the fields wanted of each object, whatever the model holds.
 
-    A field that isn't there is ``None``, of an object that isn't, too; without fields such an
-    object is ``{}``. Every value is one that JSON has. Only what is wanted is computed.
+    An object that isn't there is ``{}``, a field that isn't ``None``. Every value is one that JSON
+    has. Only what is wanted is computed.
     """
     view = seen(world)
     known: dict[str, Mapping[str, Any]] = {}
     result = {}
     for name, fields in wanted.items():
         row, thing = _found(view, known, name)
-        # clients read what they have asked for without a look whether it is there
-        missing = dict.fromkeys(fields or ())
-        result[name] = missing if row is None else _values(view, row, thing, fields)
+        result[name] = {} if row is None else _values(view, row, thing, fields)
     return result
 
 

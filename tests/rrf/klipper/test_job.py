@@ -65,7 +65,7 @@ RUNNING = [
             ("halted", False),
         )
     ),
-    ("print_stats", "filename", {}, "printer/sub/part.gcode"),
+    ("print_stats", "filename", {}, "sub/part.gcode"),
     (
         "print_stats",
         "filename",
@@ -134,7 +134,7 @@ ENDED = [
     ("virtual_sdcard", "file_position", 250),
     ("virtual_sdcard", "file_path", None),
     ("virtual_sdcard", "file_size", 1000),
-    ("print_stats", "filename", "printer/sub/part.gcode"),
+    ("print_stats", "filename", "sub/part.gcode"),
     ("print_stats", "print_duration", 55),
     ("print_stats", "total_duration", 65),
     ("print_stats", "filament_used", 12.5),
@@ -162,7 +162,7 @@ def test_values_stay_until_the_next_print():
 def test_last_job_that_nobody_saw_is_known_by_its_name_and_duration():
     at = world(OVER)
     assert whole(at, "print_stats") == {
-        "filename": "printer/sub/part.gcode",
+        "filename": "sub/part.gcode",
         "total_duration": 55,
         "print_duration": 55,
         "filament_used": 0.0,
@@ -178,7 +178,7 @@ def test_selected_file_is_told_and_no_print():
     assert get(at, "virtual_sdcard", "file_size") == 4000
     assert get(at, "virtual_sdcard", "is_active") is False
     assert get(at, "print_stats", "state") == "standby"
-    assert get(at, "print_stats", "filename") == "printer/sub/part.gcode"
+    assert get(at, "print_stats", "filename") == "sub/part.gcode"
 
 
 def test_no_print_since_the_start():
@@ -285,7 +285,7 @@ def test_hosts_print_is_shown_while_the_card_has_none(status, job, shown):
 
 def test_print_from_the_card_goes_before_the_hosts():
     at = world(PRINTING, host({"position": 900}))
-    assert get(at, "print_stats", "filename") == "printer/sub/part.gcode"
+    assert get(at, "print_stats", "filename") == "sub/part.gcode"
     assert get(at, "virtual_sdcard", "progress") == 0.25
 
 

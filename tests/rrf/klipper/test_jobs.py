@@ -146,7 +146,7 @@ def test_state_of_a_print(steps, state):
 @pytest.mark.parametrize("steps", [["paused", "busy", "idle"], ["processing", CANCELLED, "idle"]])
 def test_cancelled_print_keeps_its_name(steps):
     session = Session().take(*steps)
-    assert session.get("print_stats", "filename") == "printer/sub/part.gcode"
+    assert session.get("print_stats", "filename") == "sub/part.gcode"
     assert session.get("virtual_sdcard", "progress") == 0.25
 
 
@@ -170,7 +170,7 @@ def test_message_is_the_last_error_of_a_print_that_ended_with_one(steps, message
 
 def test_reset_leaves_name_and_progress_of_the_print_that_it_ended():
     session = Session().take("processing", "forget", RESET)
-    assert session.get("print_stats", "filename") == "printer/sub/part.gcode"
+    assert session.get("print_stats", "filename") == "sub/part.gcode"
     assert session.get("print_stats", "print_duration") == 60
     assert session.get("virtual_sdcard", "progress") == 0.25
 
@@ -331,7 +331,7 @@ def test_simulated_print_from_its_start_to_its_end(firmware):
     machine = Machine("cartesian", firmware)
     machine.send('M32 "Two layers.gcode"')
     assert states_of(machine, is_idle) == ["printing", "complete"]
-    assert machine.get("print_stats", "filename") == "printer/Two layers.gcode"
+    assert machine.get("print_stats", "filename") == "Two layers.gcode"
     assert machine.get("print_stats", "print_duration") > 60
     assert machine.get("virtual_sdcard", "progress") > 0.5
     if firmware != "2.05":
@@ -351,7 +351,7 @@ def test_simulated_print_that_is_cancelled(firmware):
     assert machine.get("pause_resume", "is_paused") is True
     machine.send("M0")
     assert states_of(machine, is_idle)[-1] == "standby"
-    assert machine.get("print_stats", "filename") == "printer/square.gcode"
+    assert machine.get("print_stats", "filename") == "square.gcode"
 
 
 @pytest.mark.parametrize("firmware", FIRMWARE)
@@ -363,7 +363,7 @@ def test_simulated_print_that_is_reset(firmware):
     machine.wait(20)
     machine.until(is_idle)
     assert machine.get("print_stats", "state") == "error"
-    assert machine.get("print_stats", "filename") == "printer/square.gcode"
+    assert machine.get("print_stats", "filename") == "square.gcode"
 
 
 def test_simulated_print_that_is_halted():

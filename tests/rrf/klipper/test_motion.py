@@ -141,10 +141,9 @@ FIELDS = [
     ("toolhead", "estimated_print_time", {}, 100.25),
     ("toolhead", "extruder", {}, "extruder"),
     ("toolhead", "extruder", {"tools[0].number": 7, "state.currentTool": 7}, "extruder7"),
-    ("toolhead", "extruder", {"state.currentTool": -1}, "extruder"),
-    ("toolhead", "extruder", {"state.currentTool": 2}, "extruder"),
-    ("toolhead", "extruder", {"state.currentTool": None}, "extruder"),
-    ("toolhead", "extruder", {"state.currentTool": None, "heat": {}}, ""),
+    ("toolhead", "extruder", {"state.currentTool": -1}, ""),
+    ("toolhead", "extruder", {"state.currentTool": 2}, ""),
+    ("toolhead", "extruder", {"state.currentTool": None}, ""),
     ("toolhead", "position", {}, [10.5, 20.5, 3.5, 12.5]),
     ("toolhead", "max_velocity", {}, 200.0),
     ("toolhead", "max_velocity", {"move.axes[1].speed": None}, 300.0),
@@ -304,16 +303,14 @@ HEIGHTS = HeightMap(
     ("X", "Y"), (15.0, 20.0), (100.0, 175.0), (3, 2), -1.0, ((0.1, None, -0.2), (0.0, 0.3, 0.4))
 )
 
-ROWS = [[0.1, 0.12, -0.2], [0.0, 0.3, 0.4]]
-"""With the mean in the place of what was not probed."""
+ROWS = [[0.1, None, -0.2], [0.0, 0.3, 0.4]]
 
 
 @pytest.mark.parametrize(
     ("heights", "kind", "matrix"),
     [
         (HEIGHTS, "mesh", ROWS),
-        (HEIGHTS._replace(axes=("Y", "X")), "mesh", [[0.1, 0.0], [0.12, 0.3], [-0.2, 0.4]]),
-        (HEIGHTS._replace(points=((None,), (None,))), "mesh", [[0.0], [0.0]]),
+        (HEIGHTS._replace(axes=("Y", "X")), "mesh", [[0.1, 0.0], [None, 0.3], [-0.2, 0.4]]),
         (HEIGHTS._replace(axes=("X", "Z")), "mesh", [[]]),
         (HEIGHTS, "none", [[]]),
         (None, "mesh", [[]]),
