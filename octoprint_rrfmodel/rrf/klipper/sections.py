@@ -24,9 +24,6 @@ EXTRUDER_SPEED, EXTRUDER_ACCELERATION = 20.0, 250.0
 SPEED, ACCELERATION = 100.0, 500.0
 """RepRapFirmware's defaults in °C, mm, mm/s and mm/s² (3.5 ``Configuration.h``)."""
 
-NOZZLE_DIAMETER = 0.4
-"""Nobody tells it, and RepRapFirmware needs none."""
-
 LONGEST_EXTRUSION = 1000.0
 """More than anybody feeds at once: RepRapFirmware has no limit."""
 
@@ -58,7 +55,6 @@ def of_extruder(view: Printer, extruder: Extruder) -> dict[str, Any]:
     return {
         **of_heater(view, extruder.heater, HOTTEST_TOOL),
         "min_extrude_temp": _or(view.heat.get("coldExtrudeTemperature"), COLD_EXTRUDE),
-        "nozzle_diameter": NOZZLE_DIAMETER,
         "filament_diameter": _or(drive.get("filamentDiameter"), FILAMENT_DIAMETER),
         "max_extrude_only_distance": LONGEST_EXTRUSION,
         "max_extrude_only_velocity": EXTRUDER_SPEED if speed is None else speed / SECONDS,

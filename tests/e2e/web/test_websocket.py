@@ -196,7 +196,7 @@ def test_queries(socket):
         ("printer.objects.nonsense", {}, -32601),
         ("printer.objects.query", {}, -32602),
         ("printer.objects.query", {"objects": ["toolhead"]}, -32602),
-        ("printer.objects.query", {"objects": {"toolhead": "position"}}, -32602),
+        ("printer.objects.query", {"objects": {"toolhead": 5}}, -32602),
         ("printer.objects.subscribe", {"objects": {"toolhead": [1]}}, -32602),
         ("printer.gcode.script", {}, -32602),
         ("printer.gcode.script", {"script": "M117 a\x07"}, -32602),

@@ -90,7 +90,7 @@ def test_cancelled_job_of_a_real_board(captures):
             if states[-1:] != [state]:
                 states.append(state)
         assert states == ["standby", "printing", "paused", "standby"]
-        assert get(at, "print_stats", "filename") == "printer/TatoCage-0.3mm.gcode"
+        assert get(at, "print_stats", "filename") == "TatoCage-0.3mm.gcode"
         assert get(at, "virtual_sdcard", "is_active") is False
         assert whole(at, "display_status")["progress"] == pytest.approx(548 / 5723298)
         assert get(at, "idle_timeout", "state") == "Ready"

@@ -30,7 +30,7 @@ WHOLE_SECTIONS = {
     "printer": ("kinematics", "max_velocity", "max_accel"),
     "extruder": (
         *HEATER,
-        *("min_extrude_temp", "nozzle_diameter", "filament_diameter"),
+        *("min_extrude_temp", "filament_diameter"),
         *("max_extrude_only_distance", "max_extrude_only_velocity", "max_extrude_only_accel"),
     ),
     "heater_bed": HEATER,
@@ -107,14 +107,14 @@ SECTIONS = [
         {
             **{"min_temp": 5, "max_temp": 285, "max_power": 1.0, "control": "pid"},
             **{"heater_pin": "", "sensor_type": "thermistor", "min_extrude_temp": 160},
-            **{"nozzle_diameter": 0.4, "filament_diameter": 2.85},
+            "filament_diameter": 2.85,
             **{"max_extrude_only_distance": 1000.0, "max_extrude_only_velocity": 60.0},
             "max_extrude_only_accel": 800.0,
         },
         {
             **{"min_temp": "5", "max_temp": "285", "max_power": "1", "control": "pid"},
             **{"heater_pin": "", "sensor_type": "thermistor", "min_extrude_temp": "160"},
-            **{"nozzle_diameter": "0.4", "filament_diameter": "2.85"},
+            "filament_diameter": "2.85",
             **{"max_extrude_only_distance": "1000", "max_extrude_only_velocity": "60"},
             "max_extrude_only_accel": "800",
         },
