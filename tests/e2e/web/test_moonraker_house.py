@@ -87,23 +87,24 @@ def test_webcams_are_octoprints(server):
 
 @pytest.mark.both_hosts("requests with a body and without")
 def test_database_over_http_and_socket(server, socket):
-    item = {"namespace": "mainsail", "key": "view.theme", "value": {"dark": True}}
+    # what other tests have kept in theirs stays on a server that they share
+    item = {"namespace": "house", "key": "view.theme", "value": {"dark": True}}
     assert result(server.post(f"{BASE}/server/database/item", json=item)) == item
-    assert socket.result("server.database.get_item", namespace="mainsail", key="view.theme") == item
-    query = "namespace=mainsail&key=view"
+    assert socket.result("server.database.get_item", namespace="house", key="view.theme") == item
+    query = "namespace=house&key=view"
     got = result(server.get(f"{BASE}/server/database/item?{query}"))
     assert got["value"] == {"theme": {"dark": True}}
-    hinted = "namespace=mainsail&key=count&value:int=3"
+    hinted = "namespace=house&key=count&value:int=3"
     assert result(server.post(f"{BASE}/server/database/item?{hinted}"))["value"] == 3
-    assert "mainsail" in socket.result("server.database.list")["namespaces"]
+    assert "house" in socket.result("server.database.list")["namespaces"]
     with server.client(READER) as reader:
         assert_failure(reader.post(f"{BASE}/server/database/item", json=item), 403)
         assert_failure(reader.delete(f"{BASE}/server/database/item?{query}"), 403)
         assert result(reader.get(f"{BASE}/server/database/item?{query}"))["value"]
     for key in ("view", "count"):
-        result(server.delete(f"{BASE}/server/database/item?namespace=mainsail&key={key}"))
+        result(server.delete(f"{BASE}/server/database/item?namespace=house&key={key}"))
     assert_failure(server.get(f"{BASE}/server/database/item?{query}"), 404)
-    assert socket.error("server.database.get_item", namespace="mainsail") == -32000
+    assert socket.error("server.database.get_item", namespace="house") == -32000
 
 
 # what is refused
