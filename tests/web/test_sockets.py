@@ -25,7 +25,7 @@ class Hub:
         self.sockets = set()
         self.told = []
 
-    def notify(self, method, params, permission):
+    def notify_named(self, method, params, permission):
         self.told.append((method, params, permission))
 
     def responded(self, line):

@@ -33,6 +33,7 @@ class Socket:
     def __init__(self, hub):
         self._hub = hub
         self.id = 1
+        self.is_named = False
         self.got = []
         self.caller = SimpleNamespace(may=lambda permission: True)
         hub.opened(self)
@@ -153,6 +154,16 @@ async def test_the_loop_goes_on_while_a_query_is_worked_on(make):
     bench.may_go_on.set()
     await asked
     assert socket.got[0]["result"]["status"] == {"toolhead": {"extruder": "extruder"}}
+
+
+@on_a_loop
+async def test_news_of_the_computer_are_told_to_clients_that_are_named(make):
+    bench = make()
+    named, other = Socket(bench.hub), Socket(bench.hub)
+    named.is_named = True
+    bench.hub.notify_named("notify_proc_stat_update", [{"cpu_temp": 40.0}], "READ")
+    assert [each["method"] for each in named.got] == ["notify_proc_stat_update"]
+    assert other.got == []
 
 
 @on_a_loop

@@ -31,6 +31,7 @@ def identify(call):
         raise RequestRefused(403, gettext("Nobody issues access tokens here. Show an API key."))
     if call.params.get("api_key"):
         socket.act_for(call.text("api_key"))
+    socket.is_named = True
     return {"connection_id": socket.id}
 
 

@@ -54,7 +54,7 @@ class Sockets(LoginStatusListener):
         self._watched.append(news)
 
     def each_second(self, method, params, permission):
-        """Have those with a permission told ``params()`` each second.
+        """Have those with a permission, whose clients are named, told ``params()`` each second.
 
         Some clients take silence for the end of a connection. Any thread calls it, and not while
         there are no sockets.
@@ -122,7 +122,7 @@ class Sockets(LoginStatusListener):
         self._on_loop("look_again")
         if self.count():
             for method, params, permission in self._each_second:
-                self.tell(method, params(), permission)
+                self._on_loop("notify_named", method, params(), permission)
         return TICK_SECONDS
 
     ##~~ LoginStatusListener

@@ -49,6 +49,8 @@ class PrinterSocket(WithoutKeys, tornado.websocket.WebSocketHandler):
         self._is_dropped = self._has_token = False
         self.id = next(self._ids)
         self.caller = None
+        self.is_named = False
+        """Whether the client has said what it is, as all do that show a whole machine."""
 
     def prepare(self):
         """Let in who shows a key, a token or a session and has READ: OctoPrint checks nothing."""
@@ -223,6 +225,13 @@ class SocketHub:
         text = jsonrpc.notification(method, params)
         for socket in list(self.sockets):
             if self._may(socket, permission):
+                socket.send(text)
+
+    def notify_named(self, method, params, permission):
+        """Tell something to those of them whose clients have said what they are."""
+        text = jsonrpc.notification(method, params)
+        for socket in list(self.sockets):
+            if socket.is_named and self._may(socket, permission):
                 socket.send(text)
 
     def logged_out(self, user):

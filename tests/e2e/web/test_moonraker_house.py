@@ -50,6 +50,13 @@ def test_clients_get_what_they_begin_with(server, socket):
     assert {"database", "webcam", "power", "machine", "data_store"} <= set(components)
 
 
+def test_a_client_that_is_named_hears_of_the_computer(server, socket):
+    told = "notify_proc_stat_update"
+    socket.result("server.connection.identify", client_name="Mainsail", type="web")
+    (news,) = socket.wait_for(told)
+    assert {"moonraker_stats", "cpu_temp", "websocket_connections"} <= set(news)
+
+
 def test_the_hour_is_there_by_object(server, socket):
     def is_kept():
         found = socket.result("server.temperature_store")
