@@ -1,19 +1,36 @@
 /* What goes to the server, what is asked before, and what is told of it. */
 $(function () {
+	/** Time for which a request without an answer holds up those behind it. */
+	const LONGEST_TURN_MS = 5000;
+
 	/** Adds to the core `command`, `script`, `confirm`, `notify` and what is made of them. */
 	RRFModel.addCommands = function (core) {
+		let last = $.Deferred().resolve();
+
+		/** Sends what comes behind what is under way: of two requests at once any may be the first. */
+		const inTurn = function (send) {
+			const turn = $.Deferred();
+			const go = _.once(() => send().done(turn.resolve).fail(turn.reject));
+			last.always(go);
+			window.setTimeout(go, LONGEST_TURN_MS);
+			last = turn;
+			return turn.promise();
+		};
+
 		/**
 		 * Sends a command; a refusal is told in the server's words. Returns the promise, whose
 		 * `shown` ends when the machine shows the effect or has refused.
 		 */
 		core.command = function (name, values) {
-			const promise = OctoPrint.plugins.rrfmodel.command(name, values);
+			const send = () => OctoPrint.plugins.rrfmodel.command(name, values);
+			// a stop waits for nothing
+			const promise = name === "emergency_stop" ? send() : inTurn(send);
 			return core.awaited(name, values, promise.fail(core.tellRefusal));
 		};
 
 		/** Sends G-code as the console does. */
 		core.script = function (text) {
-			const promise = OctoPrint.plugins.rrfmodel.script(text);
+			const promise = inTurn(() => OctoPrint.plugins.rrfmodel.script(text));
 			return core.awaited("script", {}, promise.fail(core.tellRefusal));
 		};
 

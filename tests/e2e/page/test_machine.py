@@ -349,6 +349,36 @@ def test_what_a_print_forbids_is_greyed_with_its_reason(page, view):
     expect(part(view, "home-all")).to_be_enabled()
 
 
+def test_of_two_quick_clicks_the_second_waits_for_the_answer_to_the_first(
+    page, view, server, board
+):
+    """Of two requests at once any may be the first to be taken, and an old number the last."""
+    speed = part(view, "speed-factor")
+    type_number(part(speed, "speed-factor-field"), 100)
+    wait_text(speed, "100 %")
+    sent = []
+
+    def hold_the_first(route):
+        sent.append(route)
+        if len(sent) > 1:
+            route.continue_()
+
+    page.route("**/api/plugin/rrfmodel", hold_the_first)
+    part(speed, "speed-more").dblclick()
+    # both were clicked
+    expect(part(speed, "speed-factor-field")).to_have_value("110")
+    server.wait_for(lambda: page.evaluate("1") and sent, 10, "the first request")
+    assert [route.request.post_data_json["percent"] for route in sent] == [105]
+    sent[0].continue_()
+    wait_text(speed, "110 %")
+    wait_board(server, board, "move.speedFactor", near(1.1))
+    assert factors(board)[-2:] == ["M220 S105", "M220 S110"]
+
+
+def factors(board):
+    return [line for line in helpers.commands(board) if line.startswith("M220")]
+
+
 def test_says_why_what_it_shows_is_old(page, view, server):
     state = page.locator("[data-test=strip-state]")
     expect(state).to_have_text("Idle")
