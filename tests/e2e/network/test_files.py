@@ -167,7 +167,7 @@ def test_download_is_the_file_or_a_clear_error(server, face):
     server.wait_for(is_whole, 30, "the whole file")
     assert answers[-1].status_code == 200
     assert all("error" in each.json() and each.status_code == 504 for each in answers[:-1])
-    assert "attachment" in whole.headers["Content-Disposition"]
+    assert "attachment" in answers[-1].headers["Content-Disposition"]
     copied = server.post(
         "/api/files/printer/big file.gcode",
         json={"command": "copy", "storage": "local", "destination": "copied.gcode"},
