@@ -11,7 +11,7 @@ STATIC = ROOT / "octoprint_rrfmodel" / "static"
 
 TEMPLATES = STATIC.parent / "templates"
 
-MOST_BYTES = 262_000
+MOST_BYTES = 260_000
 
 MOST_ON_DEMAND = {".js": 12_000, ".css": 1_000}
 """Of what comes when somebody first wants it."""

@@ -43,9 +43,8 @@ $(function () {
 	};
 
 	/**
-	 * Adds to the core `alerts()`, a row for what one button mends: `key`, `level`, `texts`, `text`
-	 * and `fix`, a command with `values` and its button's `text` for who may give it, or null;
-	 * `mend(row)`; `isTold(box)`, whether a message box only says what an alert says.
+	 * Adds to the core `alerts()`, rows of `key`, `level`, `texts`, `text` and `fix`, a command with
+	 * `values` and its button's `text`, or null; `mend(row)`; `isTold(box)`, whether one says it too.
 	 */
 	RRFModel.addAlerts = function (core) {
 		const tellsEvent = box => box && box.mode <= CLOSED_AT_WILL && EVENTS.includes(box.title);

@@ -6,8 +6,8 @@ $(function () {
 	const LETTERS = 22;
 
 	/**
-	 * Returns the drawing of the bed that `move()` tells of. Places are the machine's, in mm; the
-	 * picture's y goes down. `marks()` are further places, `{x, y}` each, that have to be seen.
+	 * Draws the bed that `move()` tells of, in the machine's mm; the picture's y goes down.
+	 * `marks()` are further places, `{x, y}` each, to be seen.
 	 */
 	RRFModel.bedMap = function (move, marks) {
 		const self = {};

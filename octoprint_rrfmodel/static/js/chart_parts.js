@@ -54,10 +54,8 @@ $(function () {
 	};
 
 	/**
-	 * Look at a time under the pointer, and select a part by dragging.
-	 *
-	 * `time(event)` is the time at a place, null while nothing is drawn; `pointed` gets it, null
-	 * beside the chart; `selected` both ends of a part; `released` lets the chart follow again.
+	 * Look at a time under the pointer, and select a part by dragging: `time(event)` is that of a
+	 * place or null, `pointed` gets it, `selected` both ends; `released` lets the chart follow again.
 	 */
 	RRFModel.followPointer = function (element, mark, chart) {
 		let from = null;

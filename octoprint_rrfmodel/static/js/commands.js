@@ -1,6 +1,6 @@
 /* What goes to the server, what is asked before, and what is told of it. */
 $(function () {
-	/** Time for which a request without an answer holds up those behind it. */
+	/** So long a request without an answer holds up others. */
 	const LONGEST_TURN_MS = 5000;
 
 	/** Adds to the core `command`, `script`, `confirm`, `notify` and what is made of them. */

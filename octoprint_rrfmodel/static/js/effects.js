@@ -96,9 +96,9 @@ $(function () {
 	const askedOf = (name, values) => ASKED[name === "job" ? values.action : (/^octoprint_(.*)/.exec(name) || [])[1]];
 
 	/**
-	 * Adds to the core `awaited(name, values, promise)`, the promise with another, `shown`, until
-	 * the effect of the command shows or it is refused; `asked()`, the state.status that the job is
-	 * to have, or ""; `awaitsReplies()`, whether replies may be about a command of this page.
+	 * Adds to the core `awaited(name, values, promise)`, the promise with another, `shown`, until its
+	 * effect shows or it is refused; `asked()`, the state.status that the job is to have, or "";
+	 * `awaitsReplies()`, whether replies may be about this page.
 	 */
 	RRFModel.addEffects = function (core, octoprint) {
 		const open = new Set();

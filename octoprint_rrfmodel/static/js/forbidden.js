@@ -40,8 +40,8 @@ $(function () {
 	};
 
 	/**
-	 * Adds `core.forbidden(command)`: "" or the sentence why the machine refuses it now, without a
-	 * command why it refuses moves. What takes no command at all refuses whatever it is.
+	 * Adds `core.forbidden(command)`: "" or why the machine refuses it now, without a command why
+	 * it refuses moves.
 	 */
 	RRFModel.addForbidden = function (core, octoprint) {
 		const status = ko.pureComputed(() => (core.model("state") || {}).status);

@@ -19,8 +19,8 @@ $(function () {
 	};
 
 	/**
-	 * Returns the list of one folder at a time. The card is asked only while `isWanted()` holds:
-	 * when it begins to, at a click, and once more when a machine that was busy is so no longer.
+	 * The list of one folder at a time, asked for while `isWanted()` holds: when it begins to, at a
+	 * click, and when a machine is busy no longer.
 	 */
 	RRFModel.cardFiles = function (core, isWanted) {
 		const self = {};

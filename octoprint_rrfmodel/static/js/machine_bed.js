@@ -40,7 +40,7 @@ $(function () {
 			)
 		).filter(({x, y}) => !(radius > 0) || Math.hypot(x, y) < radius);
 
-	/** Returns the members of a view model over the model of its view; `isOpen()` of its fold. */
+	/** Members over the model of its view; `isOpen()` of its fold. */
 	RRFModel.machineBed = function (core, model, isOpen) {
 		const move = ko.pureComputed(() => (isOpen() ? object(model("move")) : {}));
 		const kinematics = () => object(move().kinematics);

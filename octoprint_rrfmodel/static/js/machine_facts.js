@@ -8,7 +8,7 @@ $(function () {
 	RRFModel.pressureAdvance = extruder =>
 		isNumber(extruder.pressureAdvance) ? extruder.pressureAdvance : object(extruder.pressAdv).k0;
 
-	/** Returns the members of a view model over the model of its view; `isOpen(name)` of a fold. */
+	/** Members over the model of its view; `isOpen(name)` of a fold. */
 	RRFModel.machineFacts = function (core, model, isOpen) {
 		const self = {};
 		const show = RRFModel.show;

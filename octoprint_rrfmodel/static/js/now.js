@@ -51,9 +51,8 @@ $(function () {
 	};
 
 	/**
-	 * Adds to the core what is known of the present: `now()`, the page's time; `elapsed()`, the
-	 * seconds since the state came; `activity()`, the one statement of what the machine does;
-	 * `oldness(isShown)`.
+	 * Adds to the core `now()`, the page's time; `elapsed()`, the seconds since the state came;
+	 * `activity()`, the one statement of what the machine does; `oldness(isShown)`.
 	 */
 	RRFModel.addNow = function (core, octoprint) {
 		core.now = ko.observable(Date.now());
@@ -124,9 +123,8 @@ $(function () {
 				: null;
 
 		/**
-		 * Whether something that is seen is old, and since when; nothing is computed while
-		 * `isShown()` doesn't hold. `heaters` is of those with these indices, `key` of a top-level
-		 * key of the model.
+		 * Whether something is old, and since when; nothing is computed unless `isShown()`.
+		 * `heaters` is of those with these indices, `key` of a top-level key.
 		 */
 		core.oldness = isShown => ({
 			key: key => isShown() && isKeyOld(key),

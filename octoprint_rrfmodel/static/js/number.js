@@ -2,8 +2,8 @@
 $(function () {
 	/**
 	 * <rrf-number params="value, send, label, unit, min, max, step, test"> shows `value` until
-	 * somebody types; Enter or the button calls `send(number)` with one within the limits, Escape
-	 * gives up. What was sent is marked as long as the promise of `send` is open.
+	 * somebody types; Enter or the button calls `send(number)` within the limits, Escape gives up.
+	 * What was sent is marked while the promise of `send` is open.
 	 */
 	const RrfNumber = function (params, root) {
 		const self = this;

@@ -46,7 +46,7 @@ $(function () {
 		});
 	};
 
-	/** Returns the members of a view model over the model of its view; `isOpen(name)` of a fold. */
+	/** Members over the model of its view; `isOpen(name)` of a fold. */
 	RRFModel.morePanels = function (core, model, isOpen) {
 		const self = {};
 		const move = () => object(model("move"));

@@ -4,7 +4,7 @@ $(function () {
 	const SHAPERS = ["none", "mzv", "zvd", "zvdd", "zvddd", "ei2", "ei3"];
 	const MONITORS = [0, 1, 2];
 
-	/** Returns the members of a view model over the model of its view; `isOpen(name)` of a fold. */
+	/** Members over the model of its view; `isOpen(name)` of a fold. */
 	RRFModel.tuning = function (core, model, isOpen) {
 		const self = {command: core.command, confirm: core.confirm};
 		const move = ko.pureComputed(() => (isOpen("tuning") ? object(model("move")) : {}));

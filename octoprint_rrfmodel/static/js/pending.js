@@ -10,8 +10,8 @@ $(function () {
 	};
 
 	/**
-	 * Marks elements with `aria-busy=true` as long as a promise is open, or its `shown`. A control of several elements, one that has the class
-	 * `rrfmodel-control`, is marked with each of them. Returns what it waits for.
+	 * Marks elements with `aria-busy=true` while a promise is open, or its `shown`, and with each the
+	 * control of class `rrfmodel-control` that it is of. Returns what it waits for.
 	 */
 	RRFModel.mark = function (elements, promise) {
 		const awaited = (promise && promise.shown) || promise;

@@ -68,9 +68,8 @@ $(function () {
 	};
 
 	/**
-	 * Returns what `told()` says of the machine, an array of values, each with what was sent in its
-	 * stead as long as the model may be older than that: `values()`, and `send(values, promise)`
-	 * for what goes out now.
+	 * Returns the values that `told()` says, each with what was sent in its stead as long as the
+	 * model may be older: `values()`, and `send(values, promise)` for what goes out now.
 	 */
 	RRFModel.lastGiven = function (core, told) {
 		const sent = ko.observable(null);
