@@ -2,7 +2,9 @@
 
 ``GET /api/plugin/gauges``: names and numbers. With ``rest=1`` garbage is collected first, and the
 objects that are left are counted. Threads are counted without OctoPrint's ``RepeatedTimer``: one of
-each socket of its own sleeps on for a minute when that has been closed.
+each socket of its own sleeps on for a minute when that has been closed. OctoPrint 1.11 leaves a
+sending thread behind where a connection ends while an ok is awaited: its ``close`` takes a count
+where 2.0 sets it, so that who waits for it waits for ever; these aren't counted either.
 """
 
 import collections
@@ -34,7 +36,7 @@ class Gauges(octoprint.plugin.SimpleApiPlugin):
             gc.collect()
         return flask.jsonify(
             memory=_memory(),
-            threads=sum(not isinstance(each, RepeatedTimer) for each in threading.enumerate()),
+            threads=sum(not _is_octoprints(each) for each in threading.enumerate()),
             handles=len(os.listdir("/proc/self/fd")),
             **(_objects() if at_rest else {}),
             sockets=self._plugin().parts.moonraker.sockets.count(),
@@ -73,6 +75,11 @@ def _objects():
     objects = gc.get_objects()
     kinds = collections.Counter(str(type(each)) for each in objects)
     return {"objects": len(objects), "kinds": dict(kinds.most_common(40))}
+
+
+def _is_octoprints(thread):
+    comm = getattr(getattr(thread, "_target", None), "__self__", None)
+    return isinstance(thread, RepeatedTimer) or getattr(comm, "_send_queue_active", None) is False
 
 
 def _memory():
