@@ -113,11 +113,11 @@ class PrintGuard:
         """Pause if there is a reason to; tell each reason once."""
         causes = self.causes()
         self._was_off |= any(cause.code == OFF for cause in causes)
-        early = [cause for cause in self._early if cause not in causes]
-        self._told &= frozenset((*causes, *early))
-        self._pause_for([*causes, *early])
+        self._told &= frozenset((*causes, *self._early))
+        self._pause_for(causes)
 
     def _pause_for(self, causes):
+        causes = [*causes, *(cause for cause in self._early if cause not in causes)]
         if causes and self._takes_over(causes):
             return
         printer = self._printer()
@@ -131,10 +131,10 @@ class PrintGuard:
         if self._pausing is not None and self._pausing.is_alive():
             # hung up, and pauses as soon as it can
             return
-        self._early = ()
-        if printer.get_state_id() == STARTING:
+        is_starting = printer.get_state_id() == STARTING
+        self._early = tuple(causes) if is_starting else ()
+        if is_starting:
             # pausing now would be undone: OctoPrint goes on to printing behind its script
-            self._early = tuple(causes)
             return
         self._pausing_for = (tuple(causes), "")
         self._pausing = on_a_thread_of_its_own(printer.pause_print, name="rrfmodel.pause")

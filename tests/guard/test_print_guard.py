@@ -114,6 +114,17 @@ def test_driver_error_in_words_while_the_print_starts_pauses_once_it_has_begun()
     assert printing.pauses == 1
 
 
+def test_one_thing_after_another_while_the_print_starts_is_known_when_it_has_begun():
+    printing = Printing()
+    printing.state = "STARTING"
+    printing.say(TOLD["3.4"])
+    printing.say(TOLD["3.4"].replace("Driver 2", "Driver 3"))
+    printing.state = "PRINTING"
+    printing.take({"state": {"status": "idle"}})
+    assert sorted(printing.causes) == ["driver_error_0_2", "driver_error_0_3"]
+    assert printing.pauses == 1
+
+
 def test_what_was_found_while_a_print_started_ends_with_it():
     printing = Printing()
     printing.state = "STARTING"

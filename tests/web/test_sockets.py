@@ -1,6 +1,7 @@
 """What sockets are told without a question, and when."""
 
 from types import SimpleNamespace
+from typing import NamedTuple
 
 import pytest
 
@@ -18,6 +19,10 @@ class Loop:
         function(*arguments)
 
 
+class Socket(NamedTuple):
+    is_named: bool
+
+
 class Hub:
     """Keeps what its sockets are told."""
 
@@ -25,8 +30,8 @@ class Hub:
         self.sockets = set()
         self.told = []
 
-    def notify_named(self, method, params, permission):
-        self.told.append((method, params, permission))
+    def notify(self, method, params, permission, is_for_named=False):
+        self.told.append((method, params, permission, is_for_named))
 
     def responded(self, line):
         self.told.append(line)
@@ -52,19 +57,21 @@ def made():
 
 
 def test_each_second_those_who_may_are_told(made):
-    made.hub.sockets.add(object())
+    made.hub.sockets.add(Socket(True))
     for made.now in (100.0, 100.4, 101.0):
         made.sockets.tick()
-    told = [("notify_proc_stat_update", [now], "READ") for now in (100.0, 101.0)]
+    told = [("notify_proc_stat_update", [now], "READ", True) for now in (100.0, 101.0)]
     assert made.hub.told == told
 
 
 def test_nothing_is_measured_for_nobody(made):
+    # nor for one that has not said what it is
+    made.hub.sockets.add(Socket(False))
     made.sockets.tick()
     assert (made.hub.told, made.asked) == ([], 0)
 
 
 def test_who_looks_at_no_answer_sees_a_refusal(made):
-    made.hub.sockets.add(object())
+    made.hub.sockets.add(Socket(False))
     made.sockets.refused("No printer is connected.")
     assert made.hub.told == ["!! No printer is connected."]

@@ -161,7 +161,7 @@ async def test_news_of_the_computer_are_told_to_clients_that_are_named(make):
     bench = make()
     named, other = Socket(bench.hub), Socket(bench.hub)
     named.is_named = True
-    bench.hub.notify_named("notify_proc_stat_update", [{"cpu_temp": 40.0}], "READ")
+    bench.hub.notify("notify_proc_stat_update", [{"cpu_temp": 40.0}], "READ", True)
     assert [each["method"] for each in named.got] == ["notify_proc_stat_update"]
     assert other.got == []
 

@@ -56,8 +56,8 @@ class Sockets(LoginStatusListener):
     def each_second(self, method, params, permission):
         """Have those with a permission, whose clients are named, told ``params()`` each second.
 
-        Some clients take silence for the end of a connection. Any thread calls it, and not while
-        there are no sockets.
+        Some clients take silence for the end of a connection. Any thread calls it, and only while
+        there is such a client.
         """
         self._each_second.append((method, params, permission))
 
@@ -120,9 +120,10 @@ class Sockets(LoginStatusListener):
         self._ticked_at = self._clock()
         self.announce()
         self._on_loop("look_again")
-        if self.count():
+        # measured for those alone who are told
+        if any(socket.is_named for socket in self.open()):
             for method, params, permission in self._each_second:
-                self._on_loop("notify_named", method, params(), permission)
+                self._on_loop("notify", method, params(), permission, True)
         return TICK_SECONDS
 
     ##~~ LoginStatusListener

@@ -220,18 +220,14 @@ class SocketHub:
         """Tell the sockets a line that the printer said."""
         self.tell(jsonrpc.notification("notify_gcode_response", [as_said(line)]))
 
-    def notify(self, method, params, permission):
-        """Tell something to the sockets whose users have a permission."""
-        text = jsonrpc.notification(method, params)
-        for socket in list(self.sockets):
-            if self._may(socket, permission):
-                socket.send(text)
+    def notify(self, method, params, permission, is_for_named=False):
+        """Tell something to the sockets whose users have a permission.
 
-    def notify_named(self, method, params, permission):
-        """Tell something to those of them whose clients have said what they are."""
+        ``is_for_named``: to those of them alone whose clients have said what they are.
+        """
         text = jsonrpc.notification(method, params)
         for socket in list(self.sockets):
-            if socket.is_named and self._may(socket, permission):
+            if (socket.is_named or not is_for_named) and self._may(socket, permission):
                 socket.send(text)
 
     def logged_out(self, user):

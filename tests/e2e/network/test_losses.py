@@ -90,7 +90,11 @@ def test_no_command_is_sent_twice_when_its_answer_is_lost(server, face):
     is_carried_out = told["code"] == "unsent_doubtful"
     helpers.wait_value(server, "global.retries", int(is_carried_out), 20)
     server.commands(COUNT)
-    helpers.wait_value(server, "global.retries", int(is_carried_out) + 1, 60)
+    wanted = int(is_carried_out) + 1
+    helpers.wait_value(server, "global.retries", wanted, 60)
+    # and none comes behind it
+    helpers.wait_polls(server, 2)
+    assert helpers.value(server, "global.retries") == wanted
 
 
 PATHS = ("/api/version", "/api/files/printer", "/api/connection", "/api/job", HEIGHTMAP)

@@ -21,10 +21,10 @@ def test_a_reader_can_not_stop_the_machine(reader_page, board):
 def test_restarts_the_machine(page, server, board):
     resets = helpers.status(server)["resets"]
     home(server, board)
-    told_before = helpers.restarts(server)
+    restarts_before = helpers.restarts(server)
     part(page, "restart").click()
     page.locator(CONFIRM).click()
-    helpers.wait_restarted(server, told_before)
+    helpers.wait_restarted(server, restarts_before)
     # it is another start of the board
     assert not any(helpers.value(server, "move.axes[].homed"))
     assert helpers.status(server)["resets"] >= resets
@@ -46,8 +46,8 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     page.locator(CONFIRM).click()
     server.wait_for(lambda: board.board.is_halted, 45, "the machine to be halted")
     # the way back is offered
-    told_before = helpers.restarts(server)
+    restarts_before = helpers.restarts(server)
     fix = part(page, "strip-fix")
     fix.filter(has_text="Restart the machine").click(timeout=PATIENCE_MS)
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
-    helpers.wait_restarted(server, told_before)
+    helpers.wait_restarted(server, restarts_before)

@@ -212,10 +212,10 @@ def test_halted_it_has_the_restart(page, strip, server, board):
     fix = part(strip, "strip-fix").locator("visible=true")
     expect(fix).to_have_text("Restart the machine", timeout=PATIENCE_MS)
     assert page.evaluate(PLACE) == before
-    told_before = helpers.restarts(server)
+    restarts_before = helpers.restarts(server)
     fix.click()
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
-    helpers.wait_restarted(server, told_before)
+    helpers.wait_restarted(server, restarts_before)
     expect(part(strip, "strip-state")).to_have_text("Idle", timeout=PATIENCE_MS)
 
 

@@ -122,9 +122,9 @@ def test_a_restart_brings_the_board_back(server, board):
     helpers.wait_value(server, "state.status", "idle", 30)
     server.wait_state("Operational")
     before = len(board.board.received())
-    told_before = helpers.restarts(server)
+    restarts_before = helpers.restarts(server)
     assert send(server, "FIRMWARE_RESTART").json() == {"result": "ok"}
     server.wait_for(
         lambda: any("M999" in line for line in board.board.received()[before:]), 30, "the restart"
     )
-    helpers.wait_restarted(server, told_before)
+    helpers.wait_restarted(server, restarts_before)
