@@ -156,6 +156,7 @@ FAULTS: dict[str, Fault] = {
     "net_reset": Fault("the connection is reset in the middle of the next n answers (1)", "1"),
     "net_cut": Fault("the next n answers end in the middle, in an orderly way (1)", "1"),
     "net_lost_answer": Fault("the next n requests are carried out and not answered (1)", "1"),
+    "net_lost_command": Fault("the next n commands are carried out and not answered (1)", "1"),
     "net_foreign": Fault("the next n answers are somebody else's page (all)"),
     "net_redirect": Fault("the next n answers lead to another place (all)"),
     "net_garbled": Fault("the middle of the next n JSON answers is lost (1)", "1"),

@@ -74,6 +74,14 @@ def test_a_command_whose_answer_is_lost_is_carried_out(bench):
     assert bench.ask("heat.heaters[1].active") == 50
 
 
+def test_of_commands_alone_the_answer_is_lost_whatever_is_asked_before(bench):
+    bench.board.inject("net_lost_command")
+    assert is_well(bench)
+    assert not bench.get("gcode", gcode="M104 S50").data
+    assert bench.ask("heat.heaters[1].active") == 50
+    assert bench.get("gcode", gcode="M104 S60").status == 200
+
+
 def test_a_command_that_is_refused_by_503_is_not(bench):
     bench.board.inject("net_503:1")
     bench.get("gcode", gcode="M104 S50")

@@ -19,6 +19,8 @@ REDIRECT = (
 _INSTEAD = {"net_503": OUT_OF_BUFFERS, "net_foreign": FOREIGN, "net_redirect": REDIRECT}
 """Fault → what is answered in the place of the board; the request isn't carried out."""
 _HEAD_END = b"\r\n\r\n"
+_COMMANDS = ("rr_gcode", "machine/code")
+"""What the paths of requests end with that carry G-code."""
 
 
 class Delivered(NamedTuple):
@@ -42,8 +44,11 @@ class Delivery:
                 return data
         return None
 
-    def of(self, answer: bytes) -> Delivered:
-        """Return what of the board's answer gets through."""
+    def of(self, answer: bytes, path: str) -> Delivered:
+        """Return what of the board's answer to a request for ``path`` gets through."""
+        is_command = path.lower().endswith(_COMMANDS)
+        if is_command and self._faults.take("net_lost_command"):
+            return Delivered(b"", is_reset=True)
         if self._faults.take("net_lost_answer"):
             return Delivered(b"", is_reset=True)
         if self._faults.take("net_reset"):

@@ -94,7 +94,7 @@ def test_no_command_is_sent_twice_when_its_answer_is_lost(server, face):
     server.commands("set global.retries = 0")
     helpers.wait_value(server, "global.retries", 0, 20)
     with PushListener(server, ADMIN) as push:
-        face.board.inject("net_lost_answer")
+        face.board.inject("net_lost_command")
         server.commands(COUNT)
         push.wait_for_plugin(lambda data: data.get("code") == "unsent_doubtful", 30, "the doubt")
     server.commands(COUNT)

@@ -351,7 +351,7 @@ def test_a_box_is_answered_beside_the_command_that_opened_it(bench):
 def test_no_command_goes_out_twice_when_its_answer_is_lost(bench):
     bench.send("global count = 0")
     bench.next("done")
-    bench.board.inject("net_lost_answer")
+    bench.board.inject("net_lost_command")
     bench.send("set global.count = global.count + 1")
     assert bench.next("unsent")[2] == "doubtful"
     bench.next("done")

@@ -87,7 +87,7 @@ class HttpServer:
         if self._loses(connection):
             return
         with self._at_board():
-            delivered = self._delivery.of(answer)
+            delivered = self._delivery.of(answer, request.path)
         is_taken = connection.send(delivered.data)
         if delivered.is_reset or not is_taken:
             connection.reset()

@@ -134,20 +134,20 @@ class MachineServer:
             data = self._delivery.instead()
         if data is None:
             data = self._answer(request).data(keeps_open)
-        return self._deliver(reader, data) and keeps_open
+        return self._deliver(reader, data, parts.path) and keeps_open
 
     def _received(self, reader: _Reader) -> bytes:
         body = reader.body()
         with self._at_board():
             return self._delivery.received(body)
 
-    def _deliver(self, reader: _Reader, data: bytes) -> bool:
+    def _deliver(self, reader: _Reader, data: bytes, path: str) -> bool:
         """Send what gets through; return whether the connection may go on."""
         self._ended.wait(self._delivery.delay)
         if self._loses(reader):
             return False
         with self._at_board():
-            delivered = self._delivery.of(data)
+            delivered = self._delivery.of(data, path)
         reader.wfile.write(delivered.data)
         if delivered.is_reset:
             Connection(reader.connection).reset()
