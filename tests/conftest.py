@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import itertools
 import os
 from importlib.metadata import PackageNotFoundError, version
@@ -188,13 +189,18 @@ def pytest_collection_modifyitems(items):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Attach what the running servers logged to the report of a failure."""
+    """Attach to the report of a failure what the running servers logged and what the page does."""
     report = yield
     if report.failed:
         # the test's own first: what was lent to a whole session comes last
         for server in reversed(RUNNING):
             report.sections.append((f"OctoPrint at {server.url}", server.log_tail()))
             report.sections.append((f"serial port of {server.url}", server.serial_log_tail()))
+        page = getattr(item, "funcargs", {}).get("page")
+        if page is not None and call.when == "call":
+            from tests.support.page_report import page_report
+
+            report.sections.append(("the page", page_report(page)))
     return report
 
 
@@ -328,9 +334,11 @@ def browser():
         message = f"no browser: install Debian's chromium ({chromium.CHROMIUM})"
         # on a CI machine nobody reads about a skipped test
         (pytest.fail if os.environ.get("CI") else pytest.skip)(message)
-    from playwright.sync_api import expect, sync_playwright
+    from playwright.sync_api import Locator, expect, sync_playwright
 
     expect.set_options(timeout=chromium.PATIENCE_MS)
+    # OctoPrint's page stays where it is, and Playwright has waited 40 s for it to go elsewhere
+    Locator.click = functools.partialmethod(Locator.click, no_wait_after=True)
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS
