@@ -28,7 +28,9 @@ def _page(page: Any) -> str:
 
 
 def _processes(page: Any) -> list[str]:
-    own = [process for process in psutil.Process().children(recursive=True) if _is_browsers(process)]
+    own = [
+        process for process in psutil.Process().children(recursive=True) if _is_browsers(process)
+    ]
     for process in own:
         _percent(process)
     psutil.cpu_percent(1)
