@@ -62,8 +62,15 @@ def unfold(view, name):
     """Return a section of the sub-view Machine once it is open."""
     head = part(view, f"fold-{name}")
     expect(head).to_be_visible(timeout=PATIENCE_MS)
-    if head.get_attribute("aria-expanded") == "false":
+
+    def is_open():
+        if head.get_attribute("aria-expanded") == "true":
+            return True
+        # values that come between pressing and letting go move the head away from below the mouse
         head.click()
+        return False
+
+    waiting.wait_for(is_open, SECONDS, f"{name} to be open")
     return part(view, name)
 
 
