@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import inspect
 import itertools
 import os
 from importlib.metadata import PackageNotFoundError, version
@@ -339,6 +340,9 @@ def browser():
     expect.set_options(timeout=chromium.PATIENCE_MS)
     # OctoPrint's page stays where it is, and Playwright has waited 40 s for it to go elsewhere
     Locator.click = functools.partialmethod(Locator.click, no_wait_after=True)
+    # behind each call Playwright looks up the module of each frame; those of xdist's have none, and
+    # all modules would be gone through for them
+    inspect.modulesbyfile["<string>"] = "builtins"
     with sync_playwright() as playwright:
         instance = playwright.chromium.launch(
             executable_path=str(chromium.CHROMIUM), args=chromium.FLAGS

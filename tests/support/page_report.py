@@ -11,7 +11,7 @@ ANSWER_MS = 3_000
 
 
 def page_report(page: Any) -> str:
-    """Return whether the page answers, what it shows and what each of the browser's processes does."""
+    """Return whether the page answers and what it shows, and what the browser's processes do."""
     return "\n".join([_page(page), *_processes(page), _machine()])
 
 

@@ -50,6 +50,10 @@ class Dialect(abc.ABC):
         """Return of when the answer to a question is, and its text; ``None`` for what can't be
         asked. What the board has said before is told first: ``tell(name, *arguments)``."""
 
+    def costs(self, request):
+        """Return whether the board is asked for the answer to a question of the poller's."""
+        return True
+
     @abc.abstractmethod
     def read(self, request):
         """Return the answer to a question about files, as a line has it."""

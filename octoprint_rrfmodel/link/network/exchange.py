@@ -24,7 +24,7 @@ PATIENCE_WITH_SLOTS = 30.0
 """Time that a first login has where all slots are taken."""
 
 ERRAND_SECONDS = 0.7
-"""Between two things that can wait: a board is asked three times a second at most."""
+"""Between two things that can wait, so that the poller's questions come in between."""
 
 FINAL = ("wrong_password",)
 """Refusals after which there is no use in going on with a board that was known already."""
@@ -36,14 +36,16 @@ GONE = "gone"
 class Exchange:
     """Talks with the board of ``session`` and tells ``news`` (``news.News``) until it is closed.
 
-    ``patience()`` says how many seconds the board may be gone for.
+    ``patience()`` says how many seconds the board may be gone for, ``ration`` (``ration.Ration``)
+    how often it is asked what can wait.
     """
 
-    def __init__(self, session, news, clock, *, patience):
+    def __init__(self, session, news, clock, *, patience, ration):
         self._session = session
         self._news = news
         self._clock = clock
         self._patience = patience
+        self._ration = ration
         self._changed = threading.Condition()
         self._is_open = True
         self._is_greeted = False
@@ -227,16 +229,24 @@ class Exchange:
             return self._hear
         if self._dialect.commands.is_due():
             return self._send
-        if self._request is not None:
+        if self._request is not None and not self._poll_seconds():
             return self._poll
-        if self._errands and self._clock() >= self._errand_at:
+        if self._errands and not self._errand_seconds():
             return self._run_errand
         return None
 
+    def _poll_seconds(self):
+        return self._ration.wait() if self._dialect.costs(self._request) else 0.0
+
+    def _errand_seconds(self):
+        return max(0.0, self._errand_at - self._clock(), self._ration.wait())
+
     def _idle_seconds(self):
         waits = [1.0]
+        if self._request is not None:
+            waits.append(self._poll_seconds())
         if self._errands:
-            waits.append(self._errand_at - self._clock())
+            waits.append(self._errand_seconds())
         if self._dialect.commands.lines():
             waits.append(self._dialect.commands.at - self._clock())
         return max(0.01, min(waits))
@@ -263,6 +273,8 @@ class Exchange:
 
     def _poll(self):
         request = self._request
+        if self._dialect.costs(request):
+            self._ration.take()
         asked_at, text = self._dialect.answer(request, self._tell)
         if self._request is request:
             self._request = None
@@ -270,6 +282,7 @@ class Exchange:
 
     def _run_errand(self):
         errand = self._errands.popleft()
+        self._ration.take()
         try:
             errand(self._dialect)
         finally:

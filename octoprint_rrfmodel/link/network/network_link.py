@@ -11,6 +11,7 @@ from .exchange import Exchange
 from .height_maps import HeightMaps
 from .news import TOLD, News
 from .outgoing import Command
+from .ration import Ration
 from .stop import stop
 from .under_way import UnderWay, gcode_of
 from .up_time import UpTime
@@ -27,8 +28,8 @@ RECONNECTED_SECONDS = 90.0
 class NetworkLink(Link):
     """Knows the exchange with a board from its greeting to its end.
 
-    ``notify(name, *arguments)`` only takes note. ``model()`` is the snapshot. What the printer
-    of OctoPrint's is to know is told to ``printer`` (``printer_face.NoPrinter`` is none).
+    ``notify(name, *arguments)`` only takes note. ``model()`` is the snapshot. OctoPrint's
+    printer is told through ``printer``, ``nobody`` where there is none.
     """
 
     kind = "network"
@@ -56,9 +57,9 @@ class NetworkLink(Link):
         self.close()
         self.printer = printer
         news = News(**{name: self._of(printer, name) for name in TOLD})
-        exchange = Exchange(session, news, self._clock, patience=self._patience)
-        self.exchange = exchange
-        exchange.start()
+        rules = {"patience": self._patience, "ration": Ration(self._clock)}
+        self.exchange = Exchange(session, news, self._clock, **rules)
+        self.exchange.start()
 
     def close(self):
         """Talk with the board no more; what comes from it is nobody's from now on."""

@@ -104,6 +104,9 @@ class Sbc(Dialect):
         is_fresh = now - self._feed.heard_at < FRESH_SECONDS
         return (now if is_fresh else self._feed.heard_at), text
 
+    def costs(self, request):
+        return not isinstance(request, ModelRequest)
+
     def read(self, request):
         """Return an answer about files, in the form that a board has; ``None`` for other ones."""
         if isinstance(request, ListRequest):

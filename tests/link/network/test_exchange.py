@@ -12,6 +12,7 @@ from octoprint_rrfmodel.link.network.exchange import Exchange
 from octoprint_rrfmodel.link.network.login import Busy, Greeting, Refused
 from octoprint_rrfmodel.link.network.news import TOLD, News
 from octoprint_rrfmodel.link.network.numbers_told import replies_in
+from octoprint_rrfmodel.link.network.ration import Ration
 from octoprint_rrfmodel.link.network.session import SessionLost
 from octoprint_rrfmodel.link.network.transport import Unreachable
 from octoprint_rrfmodel.rrf.follow.follower import LIVE_ROOT
@@ -71,7 +72,13 @@ class Bench:
         news = News(
             **{name: lambda *given, name=name: self.told.put((name, *given)) for name in TOLD}
         )
-        self.exchange = Exchange(self.session, news, time.monotonic, patience=lambda: patience)
+        self.exchange = Exchange(
+            self.session,
+            news,
+            time.monotonic,
+            patience=lambda: patience,
+            ration=Ration(time.monotonic, at_once=1000),
+        )
 
     def next(self):
         return self.told.get(timeout=5)

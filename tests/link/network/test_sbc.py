@@ -15,6 +15,7 @@ from octoprint_rrfmodel.link.network.address import address_of
 from octoprint_rrfmodel.link.network.card import Card, CardRefused
 from octoprint_rrfmodel.link.network.exchange import Exchange
 from octoprint_rrfmodel.link.network.news import TOLD, News
+from octoprint_rrfmodel.link.network.ration import Ration
 from octoprint_rrfmodel.link.network.session import Session
 from octoprint_rrfmodel.link.network.stop import stop
 from octoprint_rrfmodel.link.network.transport import Transport, Unreachable
@@ -55,7 +56,13 @@ class Bench:
         news = News(
             **{name: lambda *given, name=name: self.told.put((name, *given)) for name in TOLD}
         )
-        self.exchange = Exchange(self.session, news, time.monotonic, patience=lambda: 60.0)
+        self.exchange = Exchange(
+            self.session,
+            news,
+            time.monotonic,
+            patience=lambda: 60.0,
+            ration=Ration(time.monotonic, at_once=1000),
+        )
         self.exchange.start()
 
     def _counted(self, path, *given, **named):

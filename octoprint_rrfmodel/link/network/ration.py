@@ -1,0 +1,38 @@
+"""How often a board is asked what can wait: three times a second at most, of any ten seconds."""
+
+import threading
+
+AT_ONCE = 6
+"""Questions in a row that wait for nothing: a page that is opened, a key that has changed."""
+
+A_SECOND = 2.2
+"""With those in a row 28 in any ten seconds; commands wait for nothing and need the rest."""
+
+
+class Ration:
+    """A bucket of questions that fills by itself; thread-safe. ``clock`` gives seconds."""
+
+    def __init__(self, clock, at_once=AT_ONCE, a_second=A_SECOND):
+        self._clock = clock
+        self._most = at_once
+        self._a_second = a_second
+        self._left = float(at_once)
+        self._at = clock()
+        self._lock = threading.Lock()
+
+    def wait(self):
+        """Return the seconds until the next question may go out, 0 for now."""
+        with self._lock:
+            self._fill()
+            return max(0.0, (1.0 - self._left) / self._a_second)
+
+    def take(self):
+        """Note that a question goes out."""
+        with self._lock:
+            self._fill()
+            self._left = max(0.0, self._left - 1.0)
+
+    def _fill(self):
+        now = self._clock()
+        self._left = min(self._most, self._left + (now - self._at) * self._a_second)
+        self._at = now
