@@ -45,7 +45,9 @@ ON_A_PRINT = (
     Companion("unsolicited", seconds=0.5),
     Companion("error_reply", "50"),
     Companion("sbc"),
-    Companion("unread", seconds=1.0),
+    # a server that is itself kept waiting for a second is no fault of the line's: what it loses by
+    # that is the one line that tells whether a job of the card was done
+    Companion("unread", seconds=8.0),
 )
 """What the line, the firmware and a board do to a print that goes on all the same."""
 

@@ -39,10 +39,6 @@ MACHINE, FIRMWARE = "toolchanger", "3.5.3"
 
 MOST_HARM = 3
 
-BEGINNINGS_SECONDS = 300
-"""A run up to this is mostly connections and resets, after which all keys are fetched at once; how
-often a board is asked while nobody does anything is looked at in each scene."""
-
 
 class NetworkWeek:
     """A server with its board; ``run`` goes through it and ``verdict`` says how it was."""
@@ -52,7 +48,7 @@ class NetworkWeek:
         self.scenes = Counter()
         self.samples, self.harm = [], []
         self.hours = self.seconds = 0.0
-        self.requests = self.mean_rate = self.busiest_rate = 0.0
+        self.requests = self.mean_rate = self.busiest_rate = self.own_rate = 0.0
         self.quiet_rates = []
         self.resets = 0
 
@@ -69,6 +65,7 @@ class NetworkWeek:
             asked = rig.face.asked[first:]
             self.requests, self.mean_rate = len(asked), len(asked) / self.seconds
             self.busiest_rate, self.quiet_rates = busiest(asked), rig.quiet_rates
+            self.own_rate = busiest(rig.face.of_itself)
             self.hours = rig.board.clock.now / 3600
             with contextlib.suppress(Exception):
                 self.resets = rig.status()["resets"]
@@ -138,8 +135,8 @@ class NetworkWeek:
             for level in levels(self.samples)
             if not level.is_level
         ]
-        if self.mean_rate > MOST_A_SECOND and self.seconds > BEGINNINGS_SECONDS:
-            found.append(f"{self.mean_rate:.1f} requests a second")
+        if self.own_rate > MOST_A_SECOND:
+            found.append(f"{self.own_rate:.1f} questions a second within ten seconds")
         return found
 
     def rows(self):
@@ -151,7 +148,8 @@ class NetworkWeek:
         most = max(self.quiet_rates, default=0.0)
         yield (
             f"{self.requests:.0f} requests, {self.mean_rate:.2f} a second; {most:.2f} at most "
-            f"while nobody did anything; {self.busiest_rate:.1f} in the ten seconds with the most"
+            f"while nobody did anything; in the ten seconds with the most "
+            f"{self.own_rate:.1f}, with commands {self.busiest_rate:.1f}"
         )
         for level in levels(self.samples):
             yield (

@@ -15,6 +15,8 @@ from .scene import Harmed
 
 MOST_A_SECOND = 3.0
 
+COMMANDED = ("rr_gcode", "rr_reply")
+
 WINDOW_SECONDS = 10.0
 
 SLOW = 20
@@ -32,6 +34,16 @@ class CountedBoard(HttpBoard):
     def __init__(self, board):
         super().__init__(board)
         self.asked = []
+        self.of_itself = []
+        """The same without commands and what is said to them, of which people decide how many."""
+        delivered = self.delivery.of
+
+        def counted(answer, path):
+            if not path.endswith(COMMANDED):
+                self.of_itself.append(time.monotonic())
+            return delivered(answer, path)
+
+        self.delivery.of = counted
 
     def converse(self, client, address):
         self.asked.append(time.monotonic())

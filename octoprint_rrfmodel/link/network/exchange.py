@@ -239,7 +239,7 @@ class Exchange:
         return self._ration.wait() if self._dialect.costs(self._request) else 0.0
 
     def _errand_seconds(self):
-        return max(0.0, self._errand_at - self._clock(), self._ration.wait())
+        return max(0.0, self._errand_at - self._clock(), self._ration.wait(spare=1))
 
     def _idle_seconds(self):
         waits = [1.0]
@@ -252,6 +252,7 @@ class Exchange:
         return max(0.01, min(waits))
 
     def _hear(self):
+        self._ration.take_spare()
         for news in self._dialect.news():
             self._tell(*news)
 
@@ -259,6 +260,7 @@ class Exchange:
         line = self._dialect.commands.next()
         if line is None:
             return
+        self._ration.take_spare()
         try:
             has_it = self._dialect.commands.send(line)
         except (Unreachable, Busy):

@@ -6,7 +6,7 @@ AT_ONCE = 6
 """Questions in a row that wait for nothing: a page that is opened, a key that has changed."""
 
 A_SECOND = 2.2
-"""With those in a row 28 in any ten seconds; commands wait for nothing and need the rest."""
+"""With those in a row 28 in any ten seconds; what waits for nothing is counted with them."""
 
 
 class Ration:
@@ -20,17 +20,26 @@ class Ration:
         self._at = clock()
         self._lock = threading.Lock()
 
-    def wait(self):
-        """Return the seconds until the next question may go out, 0 for now."""
+    def wait(self, spare=0):
+        """Return the seconds until the next question may go out, 0 for now.
+
+        ``spare`` is how many others are to be free to go out at once behind it.
+        """
         with self._lock:
             self._fill()
-            return max(0.0, (1.0 - self._left) / self._a_second)
+            return max(0.0, (1.0 + spare - self._left) / self._a_second)
 
     def take(self):
         """Note that a question goes out."""
         with self._lock:
             self._fill()
             self._left = max(0.0, self._left - 1.0)
+
+    def take_spare(self):
+        """Note what waits for nothing; one question may go out behind it all the same."""
+        with self._lock:
+            self._fill()
+            self._left = max(min(self._left, 1.0), self._left - 1.0)
 
     def _fill(self):
         now = self._clock()

@@ -28,6 +28,24 @@ def test_some_go_out_at_once_and_the_rest_in_turn():
     assert ration.wait() < 1e-9
 
 
+def test_what_waits_for_nothing_is_counted_and_leaves_one():
+    clock = Clock()
+    ration = Ration(clock)
+    for _ in range(AT_ONCE - 2):
+        ration.take_spare()
+    assert ration.wait(spare=1) == 0
+    ration.take_spare()
+    assert ration.wait() == 0
+    assert ration.wait(spare=1) > 0
+    for _ in range(20):
+        ration.take_spare()
+    assert ration.wait() == 0
+    ration.take()
+    assert ration.wait() > 0
+    ration.take_spare()
+    assert ration.wait() <= 1 / A_SECOND
+
+
 @given(st.lists(st.floats(0, 5), max_size=120))
 def test_never_more_than_it_is_asked_to_bear(pauses):
     clock = Clock()
