@@ -5,8 +5,8 @@ import threading
 AT_ONCE = 6
 """Questions in a row that wait for nothing: a page that is opened, a key that has changed."""
 
-A_SECOND = 2.2
-"""With those in a row 28 in any ten seconds; what waits for nothing is counted with them."""
+A_SECOND = 2.0
+"""With those in a row 26 in any ten seconds; what waits for nothing is counted with them."""
 
 
 class Ration:
