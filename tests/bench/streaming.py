@@ -111,7 +111,7 @@ def _stops(prints: list[Printed]) -> None:
     """Tell how long the stream stood because of polls: the time between two lines of the file."""
     usual = statistics.median(_gaps(prints, False))
     stops = sorted((gap - usual) * 1000 for gap in _gaps(prints, True))
-    asked = [line for each in prints for line in each.lines if line.name.startswith("M409")]
+    asked = [line for each in prints for line in _streamed(each) if line.name.startswith("M409")]
     share = sum(line.size for line in asked) * 10 / SLOW["baud"]
     results.tell("115200 baud, stop of the stream by a poll, median", stops[len(stops) // 2], "ms")
     results.tell(
@@ -127,6 +127,15 @@ def _stops(prints: list[Printed]) -> None:
         "%",
         limit=3.0,
     )
+
+
+def _streamed(printed: Printed) -> list[Line]:
+    """Return what went over the line from the file's first line to its last.
+
+    Before and behind those the line is free, and all that is live may come at once.
+    """
+    of_the_file = [number for number, line in enumerate(printed.lines) if not line.name]
+    return printed.lines[of_the_file[0] : of_the_file[-1]]
 
 
 def _gaps(prints: list[Printed], with_polls: bool) -> Iterator[float]:

@@ -65,7 +65,7 @@ schema = schemathesis.pytest.from_fixture("api")
 
 @schema.parametrize()
 @hypothesis.settings(
-    max_examples=15,
+    max_examples=8,
     deadline=None,
     suppress_health_check=list(hypothesis.HealthCheck),
     phases=[hypothesis.Phase.explicit, hypothesis.Phase.generate],
