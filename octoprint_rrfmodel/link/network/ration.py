@@ -1,7 +1,5 @@
 """How often a board is asked what can wait: three times a second at most, of any ten seconds."""
 
-import threading
-
 AT_ONCE = 6
 """Questions in a row that wait for nothing: a page that is opened, a key that has changed."""
 
@@ -10,7 +8,7 @@ A_SECOND = 2.0
 
 
 class Ration:
-    """A bucket of questions that fills by itself; thread-safe. ``clock`` gives seconds."""
+    """A bucket of questions that fills by itself, one thread's. ``clock`` gives seconds."""
 
     def __init__(self, clock, at_once=AT_ONCE, a_second=A_SECOND):
         self._clock = clock
@@ -18,28 +16,24 @@ class Ration:
         self._a_second = a_second
         self._left = float(at_once)
         self._at = clock()
-        self._lock = threading.Lock()
 
     def wait(self, spare=0):
         """Return the seconds until the next question may go out, 0 for now.
 
         ``spare`` is how many others are to be free to go out at once behind it.
         """
-        with self._lock:
-            self._fill()
-            return max(0.0, (1.0 + spare - self._left) / self._a_second)
+        self._fill()
+        return max(0.0, (1.0 + spare - self._left) / self._a_second)
 
     def take(self):
         """Note that a question goes out."""
-        with self._lock:
-            self._fill()
-            self._left = max(0.0, self._left - 1.0)
+        self._fill()
+        self._left = max(0.0, self._left - 1.0)
 
     def take_spare(self):
         """Note what waits for nothing; one question may go out behind it all the same."""
-        with self._lock:
-            self._fill()
-            self._left = max(min(self._left, 1.0), self._left - 1.0)
+        self._fill()
+        self._left = max(min(self._left, 1.0), self._left - 1.0)
 
     def _fill(self):
         now = self._clock()

@@ -65,7 +65,7 @@ def short_pauses(monkeypatch):
 
 
 class Bench:
-    def __init__(self, patience=60.0):
+    def __init__(self, patience=60.0, at_once=1000):
         self.session = FakeSession()
         self.told = queue.Queue()
         self.now = 0.0
@@ -77,7 +77,7 @@ class Bench:
             news,
             time.monotonic,
             patience=lambda: patience,
-            ration=Ration(time.monotonic, at_once=1000),
+            ration=Ration(time.monotonic, at_once, a_second=0.01),
         )
 
     def next(self):
@@ -108,6 +108,23 @@ def test_what_can_not_be_asked_says_so(greeted):
     greeted.exchange.ask(StatusRequest(2))
     assert greeted.next()[3] is None
     assert greeted.session.asked == ["login"]
+
+
+def test_questions_wait_where_the_board_was_asked_enough_and_commands_do_not():
+    bench = Bench(at_once=1)
+    try:
+        bench.exchange.start()
+        assert bench.next()[0] == "greeted"
+        bench.exchange.ask(STATE)
+        assert bench.next()[0] == "polled"
+        bench.exchange.ask(STATE)
+        bench.exchange.send("G28")
+        bench.exchange.send("G29")
+        assert [bench.next()[:2] for _ in range(2)] == [("sent", "G28"), ("sent", "G29")]
+        assert bench.told.empty()
+        assert bench.session.count("state") == 1
+    finally:
+        bench.exchange.close()
 
 
 def test_commands_come_before_questions(greeted):
