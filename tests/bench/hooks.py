@@ -32,6 +32,9 @@ RECEIVED = (
     "X:10.000 Y:20.000 Z:0.300 E:0.000 E0:0.0 Count 800 1600 120 Machine 10.000 20.000 0.300\n",
 )
 QUEUED = (("G1 X10.123 Y20.456 E0.0345", "G1"), ("M106 S127", "M106"), ("G92 E0", "G92"))
+STREAMED = (*(("G1 X10.123 Y20.456 E0.0345", "G1"),) * 48, *QUEUED[1:])
+"""As a sliced file goes: nearly all are moves."""
+
 FILE_TAGS = frozenset(("source:file", "filepos:123456", "fileline:1234"))
 
 
@@ -74,6 +77,7 @@ def measure() -> None:
         lambda: _queue(_empty_queuing, comm, queued),
     )
     _tell("queuing hook, a line", ours, empty, QUEUING_LIMIT)
+    streamed = list(itertools.islice(itertools.cycle(STREAMED), CALLS))
     sending = SentCommands(
         link,
         lambda *note: None,
@@ -82,8 +86,8 @@ def measure() -> None:
         sent=lambda cmd, tags: None,
     )
     ours, empty = side_by_side(
-        lambda: _stream(queue.on_queuing, sending.on_sending, hooks.on_received, comm, queued),
-        lambda: _stream(_empty_queuing, _empty_queuing, _empty_received, comm, queued),
+        lambda: _stream(queue.on_queuing, sending.on_sending, hooks.on_received, comm, streamed),
+        lambda: _stream(_empty_queuing, _empty_queuing, _empty_received, comm, streamed),
     )
     _tell("all three hooks, a streamed line", ours, empty, STREAMED_LIMIT)
 

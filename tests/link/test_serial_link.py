@@ -58,8 +58,11 @@ class Rig:
     def hear(self, line):
         return self.received.on_received(self.comm, line)
 
-    def send(self, cmd, gcode):
-        return self.sent.on_sending(self.comm, "sending", cmd, None, gcode, tags={"api:x"})
+    def send(self, cmd, gcode, tags=("api:x",)):
+        return self.sent.on_sending(self.comm, "sending", cmd, None, gcode, tags=set(tags))
+
+    def stream(self, cmd, gcode):
+        return self.send(cmd, gcode, ("source:file", "fileline:12"))
 
 
 @pytest.fixture
@@ -243,6 +246,48 @@ def test_waits_for_what_octoprint_takes_for_no_command(rig, cmd, gcode, waits, s
     rig.send(cmd, gcode)
     assert bool(cleared) == (waits and not setting)
     assert (rig.link.awaited is not None) == (waits or gcode is not None)
+
+
+@pytest.mark.parametrize("ok", ["ok", "ok\n", "ok\r\n", "ok T:20.0 /0.0 B:20.0 /0.0\n"])
+def test_a_move_of_a_file_is_awaited_until_its_ok(rig, ok):
+    rig.stream("G1 X1 E0.2", "G1")
+    assert rig.link.doing() == Doing("G1 X1 E0.2", "other", 100.0)
+    assert rig.link.extruded == ("G1 X1 E0.2", {"source:file", "fileline:12"})
+    rig.stream("G1 X2", "G1")  # OctoPrint has given up the ok before
+    assert rig.link.awaited_command == "G1 X2"
+    assert rig.hear(ok) == ok
+    assert rig.link.doing() is None
+    assert rig.link.extruded[0] == "G1 X1 E0.2"
+
+
+@pytest.mark.parametrize("cmd", ["G1 H1 X-200", "G1 X5 M400", "G1 X5 G28"])
+def test_a_move_with_more_to_it_is_no_plain_one(rig, cmd):
+    rig.stream(cmd, "G1")
+    rig.now += 1
+    rig.hear("ok\n")
+    assert not rig.link.awaits_a_move
+    assert rig.link.settled_at == 101.0
+
+
+def test_behind_a_long_command_a_move_of_a_file_is_a_move_again(rig):
+    rig.stream("G28", "G28")
+    rig.hear("ok\n")
+    rig.stream("G1 X1", "G1")
+    rig.now += 30
+    assert rig.link.awaits_a_move
+    assert rig.hear("") == ""  # its silence is silence
+    rig.hear("ok\n")
+    rig.stream("G28", "G28")
+    assert rig.hear("") == STILL_BUSY
+
+
+def test_the_ok_too_many_is_taken_out_behind_a_move_of_a_file(rig):
+    rig.stream("G1 X1", "G1")
+    rig.link.extra_ok.asks(("ok T",))
+    assert rig.hear("ok\n") != "ok\n"
+    assert rig.link.awaited is not None
+    assert rig.hear("ok T:20.0\n") == "ok T:20.0\n"
+    assert rig.link.awaited is None
 
 
 class Later:

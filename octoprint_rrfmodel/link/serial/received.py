@@ -18,8 +18,10 @@ REPORTS = frozenset("TBC")
 
 OK = "ok"
 
-PLAIN_OK = len("ok\r\n")
-"""The longest acknowledgement without anything behind it."""
+OKS = frozenset((OK, "ok\n", "ok\r\n"))
+"""Acknowledgements without anything behind them."""
+
+PLAIN_OK = max(map(len, OKS))
 
 NOISE = "\0\ufffd"
 """A byte of noise, and what OctoPrint makes of one that is no text: it doesn't find the ok that one
@@ -79,6 +81,11 @@ class ReceivedLines:
         """Return the line without the board's JSON, which goes to the worker."""
         link = self._link
         if comm is not link.connection:
+            return line
+        if line in OKS and link.awaits_a_move and link.extra_ok.awaits is None:
+            # nearly every answer in a print; each call less counts
+            link.awaits_a_move = False
+            link.awaited = None
             return line
         if line:
             # a call less for each line

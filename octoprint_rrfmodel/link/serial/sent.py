@@ -1,7 +1,7 @@
 """OctoPrint's hook about what is about to leave, on the thread that sends a print's lines."""
 
 from ...host.tags import FILE_TAG, POLL_TAG, POLL_TYPE
-from ...rrf.gcode.blocking import TARGETING
+from ...rrf.gcode.blocking import MOVES, TARGETING
 from ...rrf.gcode.plain_lines import HOSTS_OWN, name_of
 from ...rrf.wire.gcode_words import KEEPS_MODES
 from .extra_ok import count_ok
@@ -38,6 +38,9 @@ class SentCommands:
         """
         link = self._link
         if comm is not link.connection:
+            return None
+        if gcode in MOVES and tags and FILE_TAG in tags and link.awaits_move(cmd, gcode, tags):
+            # nearly every line of a print
             return None
         poll = link.take_asked() if cmd_type == POLL_TYPE else None
         if poll is not None:

@@ -10,7 +10,6 @@ from ...host.tags import POLL_TAG
 from ...rrf.gcode.blocking import MOVES, SETTLING, is_plain_move, may_change
 from ...rrf.gcode.doing import HEATING, what_of
 from ...rrf.gcode.duration import takes_long
-from ...rrf.wire.gcode_words import words
 from ...rrf.wire.masking import masked
 from ..link import Doing, Link
 from ..terminal import RecentPolls
@@ -24,17 +23,12 @@ from .own_commands import to_queue
 from .own_requests import OwnRequests
 from .pending import is_change_waiting
 from .restart import Connection, reconnect, restart
+from .shown_targets import shown_as_it_is
 
 STATUS_REQUEST = "M105"
 
 RUNS_MACROS = frozenset(("T", "M98"))
 """Commands whose macros may extrude."""
-
-SLOTS = (
-    ("M140 ", "heatedBed", "bedHeaters"),
-    ("M141 ", "heatedChamber", "chamberHeaters"),
-)
-"""Command, what OctoPrint's printer profile calls the heater, and its slots in the model."""
 
 
 class SerialLink(Link):
@@ -72,6 +66,8 @@ class SerialLink(Link):
         """G-code of the command whose acknowledgement is awaited."""
         self.awaited_command = ""
         self.awaited_tags = ()
+        self.awaits_a_move = False
+        """Whether the awaited command is a plain move of a file, and nothing else is awaited."""
         self._settles = False
         self.extruded = "", ()
         """The last command that extruded, and its tags: what is refused of it comes later."""
@@ -94,14 +90,32 @@ class SerialLink(Link):
         look_again(comm)
         self.connection = comm
 
+    def awaits_move(self, cmd, gcode, tags):
+        """Note a move of a file that is about to go out, and return whether that is all there is
+        to note of it."""
+        if self.awaited is not None or self.own.awaited or self.extra_ok.awaits is not None:
+            return False
+        if not is_plain_move(cmd):
+            return False
+        self.awaited_command = cmd
+        self.awaited_tags = tags
+        self.awaited_since = self.heard_at = self.clock()
+        self._settles = self.awaits_long = self.asks_of_a_file = False
+        if "E" in cmd:
+            self.extruded = cmd, tags
+        # last, for its ok may be waited for from here on
+        self.awaited = gcode
+        self.awaits_a_move = True
+        return True
+
     def awaits(self, cmd, gcode, tags=()):
         """Note the command that is about to go out."""
+        self.awaits_a_move = False
         self.awaited = gcode
         self.awaited_command = cmd
         self.awaited_tags = tags
         self.awaited_since = self.heard_at = self.clock()
         if gcode in MOVES and is_plain_move(cmd):
-            # nearly every line of a print
             self._settles = self.awaits_long = False
             if "E" in cmd:
                 self.extruded = cmd, tags
@@ -175,20 +189,10 @@ class SerialLink(Link):
         stop(self, tags, self._notify)
 
     def carried(self, lines, machine):
-        """Return lines that OctoPrint sends and shows nothing wrong of.
-
-        It drops what its printer profile has no bed or chamber for, and shows the target of any
-        slot as that of the first. Behind another command on the same line it looks at neither.
-        """
         return [self._carried(line, machine) for line in lines]
 
     def _carried(self, line, machine):
-        comm = self.connection
-        for code, part, kind in SLOTS:
-            if comm is not None and line.startswith(code):
-                is_first = words(line).get("P") == machine.slot(kind)
-                return line if is_first and self.profile()[part] else f"M120 {line} M121"
-        return line
+        return shown_as_it_is(line, self.profile, machine) if self.connection else line
 
     @property
     def can_restart(self):

@@ -72,13 +72,14 @@ def may_change(gcode: str, command: str = "") -> bool:
     """Return whether axes, tools and heat may be other than they were, once a command is through.
 
     Any command that isn't known to be harmless may run a macro of the machine's own, which may do
-    anything (3.5 GCodes2.cpp, the end of HandleMcode). A move with H may home.
+    anything (3.5 GCodes2.cpp, the end of HandleMcode). A move with H may home, and so may what
+    stands behind a move on its line.
 
     >>> may_change("G28"), may_change("M1234"), may_change("G1", "G1 H1 X-9"), may_change("M106")
     (True, True, True, False)
     """
     if gcode in MOVES:
-        return "H" in command
+        return not is_plain_move(command)
     return gcode[:1] in ("G", "M", "T") and gcode not in _PLAIN
 
 
