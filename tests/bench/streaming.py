@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import statistics
 import tempfile
 import threading
@@ -69,6 +70,7 @@ def _fast(folder: Path) -> None:
             if number < CROWDED_ROUNDS:
                 crowd = _print(made[-1], FAST["lines"], _watched)
                 found.setdefault(crowded, []).append(crowd)
+        apart = _one_core(made)
     for name, prints in found.items():
         rate = statistics.median(each.rate for each in prints)
         micros = statistics.median(each.micros for each in prints)
@@ -87,6 +89,28 @@ def _fast(folder: Path) -> None:
         beside=f"{FAST['rounds']} rounds in turn with {SERVERS} of each, median",
         limit=RATIO_LIMIT,
     )
+    results.tell(
+        "the same where both of OctoPrint's threads share one core",
+        _ratio(apart[PLUGIN], apart[EMPTY], "micros"),
+        "times",
+        beside=f"{apart[PLUGIN][0].micros:.0f} us; without what a turn from core to core takes",
+        limit=RATIO_LIMIT,
+    )
+
+
+def _one_core(made: list[Variant]) -> dict[str, list[Printed]]:
+    """Return prints of each variant on the first core that there is.
+
+    On two the interpreter's lock changes hands between them, at some cost for each line.
+    """
+    found: dict[str, list[Printed]] = {}
+    first = min(os.sched_getaffinity(0))
+    for variant in made:
+        variant.use({first})
+    for _ in range(FAST["rounds"] // 2):
+        for variant in made:
+            found.setdefault(variant.name, []).append(_print(variant, FAST["lines"]))
+    return found
 
 
 def _slow(folder: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -58,6 +59,12 @@ class Variant:
             with contextlib.suppress(OSError):
                 total += int((task / "schedstat").read_text(encoding="utf-8").split()[0])
         return total / 1e9
+
+    def use(self, processors: set[int]) -> None:
+        """Have its threads of now, and those that they will start, run there alone."""
+        for task in Path(f"/proc/{self._pid()}/task").iterdir():
+            with contextlib.suppress(ProcessLookupError):
+                os.sched_setaffinity(int(task.name), processors)
 
     def memory(self) -> float:
         """Return the resident memory of OctoPrint in MB."""
