@@ -5,8 +5,8 @@
 PYTHON ?= python3
 PYTHON39 ?= python3.9
 # workers by OctoPrint: there are three times as many tests end to end in 2.0
-JOBS_1.11 ?= 3
-JOBS_2.0 ?= 6
+JOBS_1.11 ?= 4
+JOBS_2.0 ?= 7
 DEMO_OCTOPRINT ?= 2.0
 PYTEST_ARGS ?=
 MINUTES ?= 10

@@ -2,7 +2,6 @@
 
 from octoprint.events import Events
 from octoprint.filemanager import FileDestinations
-from octoprint.printer import PrinterCallback
 
 from ..rrf.klipper import HostJob
 
@@ -13,7 +12,7 @@ OUTCOMES = {
 }
 
 
-class StreamedJob(PrinterCallback):
+class StreamedJob:
     """Follows OctoPrint's own job; OctoPrint calls from its threads, ``job()`` may be asked by any.
 
     What is attached is called when there is news.
@@ -31,7 +30,7 @@ class StreamedJob(PrinterCallback):
         self._changed = changed
 
     def on_printer_send_current_data(self, data):
-        """Take what OctoPrint tells its pages about the job (OctoPrint's callback)."""
+        """Take what OctoPrint tells its pages about the job (``PrinterNews``)."""
         self._data = data
         self._changed()
 

@@ -12,8 +12,8 @@ T = TypeVar("T")
 # and seldom too where it takes long to look: a board is looked at at once, a server is asked
 SHORTEST_PAUSE = 0.005
 LONGEST_PAUSE = 0.5
-PAUSE_SHARE = 0.12
-LOOK_SHARE = 5
+PAUSE_SHARE = 0.16
+LOOK_SHARE = 10
 
 # a CI machine is often shared; whoever waits longer only loses time where the test fails anyway
 PATIENCE = 2 if os.environ.get("CI") else 1

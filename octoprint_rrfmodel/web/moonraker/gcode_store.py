@@ -5,8 +5,6 @@ import re
 import threading
 import time
 
-from octoprint.printer import PrinterCallback
-
 from ...host.tags import COMMAND_TAG, SCRIPT_TAG, STATUS_TAG
 from ...link.terminal import RECEIVED, PollTrace
 from ...rrf.wire.masking import masked
@@ -39,7 +37,7 @@ MOONRAKERS = ("message", "time", "type")
 """The members of a line that Moonraker knows."""
 
 
-class GcodeStore(PrinterCallback):
+class GcodeStore:
     """Keeps the latest commands and responses, in Moonraker's form.
 
     ``link`` says whether there is anything to keep, and whether the plugin sent a command;
@@ -68,7 +66,7 @@ class GcodeStore(PrinterCallback):
             self._note(masked(command), "command")
 
     def on_printer_add_log(self, data):
-        """Take a line of OctoPrint's log (OctoPrint's callback)."""
+        """Take a line of OctoPrint's log (``host.printer_news.PrinterNews``)."""
         # first what nearly all lines of a print are, two for each line of the file
         is_plain = data in PLAIN or (data[:4] in SENT_LINE and " G" in data)
         if is_plain and not (self._is_asked or self._trace.is_open):

@@ -6,6 +6,7 @@ from typing import Any, Callable, NamedTuple
 from octoprint.events import Events, eventManager
 from tornado.ioloop import IOLoop
 
+from ...host.printer_news import PrinterNews
 from ...host.streamed_job import StreamedJob
 from .connection_methods import connection_methods
 from .files import Files
@@ -96,8 +97,10 @@ class Moonraker:
     def start(self):
         """Begin to listen to OctoPrint, and to clients on a port of their own."""
         self.files.subscribe(eventManager())
-        self._host.printer().register_callback(self.job)
-        self._host.printer().register_callback(self.store)
+        news = PrinterNews(
+            current_data=self.job.on_printer_send_current_data, log=self.store.on_printer_add_log
+        )
+        self._host.printer().register_callback(news)
         self._host.users().register_login_status_listener(self.sockets)
         self._look_at_settings()
 

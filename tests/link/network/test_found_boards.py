@@ -1,11 +1,14 @@
 """Boards that say where they are are offered; who says anything else isn't, and does no harm."""
 
 import contextlib
+import fcntl
 import socket
 import sys
+import tempfile
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -39,14 +42,20 @@ def service(
     )
 
 
+ALONE = Path(tempfile.gettempdir()) / "tests-with-mdns.lock"
+"""Locked by who registers: the tests of both hosts run at the same time, and hear each other."""
+
+
 @pytest.fixture
 def network():
     """Somebody on the network who can register services; this host alone hears them."""
-    # on another thread it makes a loop of its own; the test's may have the browser's
-    with ThreadPoolExecutor(1) as thread:
-        made = thread.submit(zeroconf.Zeroconf, interfaces=[HERE]).result()
-    with contextlib.closing(made):
-        yield made
+    with ALONE.open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        # on another thread it makes a loop of its own; the test's may have the browser's
+        with ThreadPoolExecutor(1) as thread:
+            made = thread.submit(zeroconf.Zeroconf, interfaces=[HERE]).result()
+        with contextlib.closing(made):
+            yield made
 
 
 @pytest.fixture
