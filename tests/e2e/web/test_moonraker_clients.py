@@ -27,6 +27,8 @@ BOARD = {"machine": "cartesian"}
 
 SETTING = "plugins.rrfmodel.moonraker"
 
+MAINSAIL = "recipes/mainsail.md"
+
 NOT_FOUND = 404
 
 NO_METHOD = -32601
@@ -236,8 +238,8 @@ def test_moonraker_client(root):
 # proxies, as the docs have them
 
 
-def blocks(language):
-    page = (ROOT / "docs" / "clients.md").read_text(encoding="utf-8")
+def blocks(language, page="clients.md"):
+    page = (ROOT / "docs" / page).read_text(encoding="utf-8")
     return re.findall(rf"^```{language}\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
 
 
@@ -328,19 +330,31 @@ def test_a_proxy_as_in_the_docs(server, proxied, name):
         assert socket.answer("printer.info", {})["result"]["state"] == "ready"
 
 
+def test_the_recipe_has_the_parts_of_the_page_of_clients():
+    text, keys, header, page = blocks("nginx")
+    (whole,) = blocks("nginx", MAINSAIL)
+    text, _, rest = text.partition("        return 404;\n")
+    for part in (*text.partition("        proxy_http_version 1.1;\n"), rest, header, page):
+        for line in part.splitlines():
+            assert line.strip() in whole
+    assert keys.rstrip().rstrip("}") in whole
+
+
 @pytest.fixture(scope="module")
 def with_key(server, proxied, tmp_path_factory):
     """The port of a proxy that adds a key, as in the docs."""
     port = ports.free_port()
-    text, keys, header, page = blocks("nginx")
-    location = "        proxy_http_version 1.1;\n"
-    text = text.replace(location, location + header)
+    (text,) = blocks("nginx", MAINSAIL)
     folder = tmp_path_factory.mktemp("page")
     (folder / "index.html").write_text("a page")
-    text = text.replace("return 404;", page.replace("/var/www/mainsail", str(folder)))
-    own = f'    "http://127.0.0.1:{port}" "KEY";\n}}'
-    keys = keys.replace("}", own).replace("KEY", OPERATOR.api_key)
-    proxied("nginx", placed(keys + text, server, port))
+    for there, here in (
+        ("/var/www/mainsail", str(folder)),
+        ("http://octopi.local:7125", f"http://127.0.0.1:{port}"),
+        ("KEY", OPERATOR.api_key),
+    ):
+        assert there in text
+        text = text.replace(there, here)
+    proxied("nginx", placed(text, server, port))
     server.wait_for(lambda: answers(f"http://127.0.0.1:{port}", key=""), 20, "nginx")
     return port
 
