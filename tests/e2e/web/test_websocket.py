@@ -2,13 +2,13 @@
 
 import asyncio
 import json
+import sys
 import time
 from urllib.parse import urlsplit
 
 import aiohttp
 import pytest
 import websocket
-from moonraker_api import MoonrakerClient, MoonrakerListener
 
 from tests.support import coroutines
 from tests.support.basedir import ADMIN, OPERATOR, READER
@@ -334,17 +334,19 @@ def test_others_stay_when_somebody_goes(server, socket, somebody):
 # a client that others wrote
 
 
-class Listener(MoonrakerListener):
-    def __init__(self):
-        self.updates = asyncio.Queue()
-
-    async def on_notification(self, method, data):
-        if method == "notify_status_update":
-            await self.updates.put(data)
-
-
 @pytest.mark.both_hosts("the sockets are there")
+@pytest.mark.skipif(sys.version_info < (3, 10), reason="moonraker-api wants a newer Python")
 def test_moonraker_api_subscribes(server):
+    from moonraker_api import MoonrakerClient, MoonrakerListener
+
+    class Listener(MoonrakerListener):
+        def __init__(self):
+            self.updates = asyncio.Queue()
+
+        async def on_notification(self, method, data):
+            if method == "notify_status_update":
+                await self.updates.put(data)
+
     async def run():
         listener = Listener()
         address = urlsplit(server.url)
