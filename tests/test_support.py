@@ -1,9 +1,9 @@
 """The promises of the bench that a passing test doesn't show: nothing is left behind."""
 
-import os
 import socket
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -16,12 +16,12 @@ GUARDED = [sys.executable, guard.__file__, *SLEEPER]
 
 def is_running(pid):
     try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        # the second where it ends between opening and reading
         return False
-    with open(f"/proc/{pid}/stat") as stat:
-        # an orphan that ended stays as a zombie where nobody reaps it
-        return stat.read().rpartition(")")[2].split()[0] != "Z"
+    # an orphan that ended stays as a zombie where nobody reaps it
+    return stat.rpartition(")")[2].split()[0] != "Z"
 
 
 def test_guard_ends_the_command_when_its_input_closes():

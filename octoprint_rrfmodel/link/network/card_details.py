@@ -79,7 +79,12 @@ class CardDetails:
             self._work = None
             raise
         else:
-            self._link.exchange.run(self._step)
+            exchange = self._link.exchange
+            if exchange is None:
+                # the connection has ended meanwhile, on another thread
+                self._work = None
+            else:
+                exchange.run(self._step)
 
     def _asked(self, file):
         """Give what is to be asked, and take the answers."""

@@ -138,9 +138,9 @@ class NetworkLink(Link):
 
     def replied(self, taken, asked_at):
         """Look what a reply says of the command that is under way."""
-        if self.exchange is None:
+        if (exchange := self.exchange) is None:
             return
-        self._under_way.replied(asked_at, self.exchange.dialect)
+        self._under_way.replied(asked_at, exchange.dialect)
         self.heights.look()
         self._up_time.note(self._model(), asked_at)
 
@@ -149,8 +149,8 @@ class NetworkLink(Link):
         self._ups += 1
         self._up_time.forget()
         self._under_way.forget()
-        if self.exchange is not None:
-            self.exchange.drop("reset")
+        if (exchange := self.exchange) is not None:
+            exchange.drop("reset")
 
     ##~~ Link
 
@@ -160,7 +160,7 @@ class NetworkLink(Link):
 
     @property
     def protocol(self):
-        return self.exchange.dialect.protocol if self.exchange is not None else None
+        return exchange.dialect.protocol if (exchange := self.exchange) is not None else None
 
     @property
     def settled_at(self):
@@ -176,7 +176,7 @@ class NetworkLink(Link):
 
     @property
     def is_away(self):
-        return self.exchange is not None and self.exchange.is_away
+        return (exchange := self.exchange) is not None and exchange.is_away
 
     @property
     def height_map(self):
@@ -192,12 +192,12 @@ class NetworkLink(Link):
         self._under_way.forget()
 
     def ask(self, request):
-        if self.exchange is not None:
-            self.exchange.ask(request)
+        if (exchange := self.exchange) is not None:
+            exchange.ask(request)
 
     def give_up(self):
-        if self.exchange is not None:
-            self.exchange.give_up()
+        if (exchange := self.exchange) is not None:
+            exchange.give_up()
 
     def send(self, lines, tags, force=False):
         ordered = reversed(lines) if force else lines
@@ -205,7 +205,7 @@ class NetworkLink(Link):
             self._send(line.strip(), tags, force)
 
     def _send(self, line, tags, first):
-        if not line or line.startswith((";", "@")) or self.exchange is None:
+        if not line or line.startswith((";", "@")) or (exchange := self.exchange) is None:
             return
         gcode = gcode_of(line)
         if gcode == "M112":
@@ -215,7 +215,7 @@ class NetworkLink(Link):
         else:
             # without anything behind it, it would empty the board's input
             text = f"{line} " if line.upper() == "M122" else line
-            self.exchange.send(Command.of(text, tags), first)
+            exchange.send(Command.of(text, tags), first)
 
     def send_later(self, lines, tags):
         self.send(lines, tags)
@@ -224,20 +224,20 @@ class NetworkLink(Link):
         return list(lines)
 
     def stop_now(self, tags):
-        if self.exchange is not None:
-            self.exchange.drop("stopped")
-            stop(self.exchange.dialect, self._logger)
+        if (exchange := self.exchange) is not None:
+            exchange.drop("stopped")
+            stop(exchange.dialect, self._logger)
 
     @property
     def can_restart(self):
         return self.exchange is not None
 
     def restart(self, is_running):
-        if is_running() or self.exchange is None:
+        if is_running() or (exchange := self.exchange) is None:
             return
-        self.exchange.drop("reset")
+        exchange.drop("reset")
         before = self._ups
-        stop(self.exchange.dialect, self._logger, "M999")
+        stop(exchange.dialect, self._logger, "M999")
         self._wait_for(lambda: self._ups != before)
         self._logger.info("The board was restarted and is there again")
 

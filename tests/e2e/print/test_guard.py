@@ -250,7 +250,9 @@ def test_resumed_otherwise_pauses_again(server, printing):
         push.wait_for_event("PrintResumed")
         push.wait_for_event("PrintPaused", 20)
     server.wait_state("Paused", 20)
-    assert pause(server)["values"]["next"] == "wait"
+    # OctoPrint tells of the pause before the plugin's own thread has seen it
+    told = server.wait_for(lambda: pause(server), PAUSE_SECONDS, "the reason")
+    assert told["values"]["next"] == "wait"
 
 
 def test_each_can_be_switched_off(server, printing):

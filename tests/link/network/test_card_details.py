@@ -97,6 +97,20 @@ def test_gap_leaves_the_rest_for_the_next_list(bench):
     assert len(bench.details.known) == 2
 
 
+def test_end_of_the_connection_leaves_the_rest_for_the_next_one():
+    board = Board()
+    link = SimpleNamespace(exchange=board)
+    details = CardDetails(link, list)
+    details.look([file("picture.g")])
+    link.exchange = None
+    board.work()
+    assert len(board.asked) == 1, "it was under way already"
+    link.exchange = board
+    details.look([file("picture.g")])
+    board.work()
+    assert details.known["0:/gcodes/picture.g"].picture.data == JPEG
+
+
 def test_nonsense_is_left_out(bench):
     bench.board.ask = lambda path, **_: b"<html>"
     bench.details.look([file("a.g"), file("b.g")])
