@@ -95,8 +95,7 @@ class SerialLink(Link):
         to note of it."""
         if self.awaited is not None or self.own.awaited or self.extra_ok.awaits is not None:
             return False
-        # as is_plain_move has it, a call less for each line
-        if cmd.rfind("G") > 0 or "M" in cmd or "H" in cmd:
+        if not is_plain_move(cmd):
             return False
         self.awaited_command = cmd
         self.awaited_tags = tags

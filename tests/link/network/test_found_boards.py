@@ -2,6 +2,7 @@
 
 import contextlib
 import fcntl
+import os
 import socket
 import sys
 import tempfile
@@ -42,7 +43,7 @@ def service(
     )
 
 
-ALONE = Path(tempfile.gettempdir()) / "tests-with-mdns.lock"
+ALONE = Path(tempfile.gettempdir()) / f"tests-with-mdns-{os.getuid()}.lock"
 """Locked by who registers: the tests of both hosts run at the same time, and hear each other."""
 
 
