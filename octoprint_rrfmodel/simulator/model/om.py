@@ -7,6 +7,7 @@ arrays, shortage of buffers, versions.
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 import struct
@@ -29,6 +30,9 @@ DSF_KEYS = ("network", "volumes")
 
 HEATER_MODEL = "heat.heaters[].model"
 
+MOST_KEPT = 8192
+"""Texts of numbers and names that are kept."""
+
 _EXPONENT_FROM = 9.2e18
 _MOST_DIGITS = 7
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
@@ -37,17 +41,8 @@ _ARRAY_START = re.compile(r"a(\d*)")
 _KEY_STEP = re.compile(r"\.?([^.\[^]+)|\[\s*([-+]?\d*)\]")
 
 
-class Fixed(float):
-    """A number that knows with how many decimals the firmware prints it."""
-
-    decimals: int
-
-    def __new__(cls, value: float, decimals: int) -> Fixed:
-        self = super().__new__(cls, value)
-        self.decimals = decimals
-        return self
-
-
+# a model has the same names and mostly the same numbers each time
+@functools.lru_cache(maxsize=MOST_KEPT)
 def number(value: float, decimals: int = 0) -> str:
     """Return a float as RRF prints it, ``null`` for NaN and infinities.
 
@@ -77,13 +72,18 @@ def exponential(value: float, decimals: int) -> str:
     return f"{mantissa}e{exponent[0]}{int(exponent[1:])}"
 
 
+@functools.lru_cache(maxsize=MOST_KEPT)
 def quoted(text: str) -> str:
     """Return a JSON string with the escapes RRF knows; other control characters become ``?``."""
     return '"' + _UNSAFE.sub(lambda m: _ESCAPES.get(m.group(), "?"), text) + '"'
 
 
-def encoded(value: Any, exponents: bool = False) -> str:
-    """Return a value as the firmware writes it, without blanks."""
+def encoded(value: Any, node: Any = None, *, exponents: bool = False) -> str:
+    """Return a value as the firmware writes it, without blanks.
+
+    ``node`` has the decimals of a number, or of what is in an object or a list, as
+    :func:`..decimals.decimals_of` returns them. What has none is written as it is.
+    """
     if value is None:
         return "null"
     if value is True:
@@ -92,44 +92,45 @@ def encoded(value: Any, exponents: bool = False) -> str:
         return "false"
     if isinstance(value, str):
         return quoted(value)
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        text = number(value, getattr(value, "decimals", 0))
-        if not exponents or text in ("0", "null"):
-            return text
-        # another form of the same value, with as many digits as it has
-        digits = text.strip("-").replace(".", "").strip("0")
-        return exponential(float(text), max(1, len(digits) - 1))
+    if isinstance(value, (int, float)):
+        return _encoded_number(value, node, exponents)
     if isinstance(value, Mapping):
-        members = (quoted(k) + ":" + encoded(v, exponents) for k, v in value.items())
+        below = node if isinstance(node, Mapping) else {}
+        members = (
+            f"{quoted(name)}:{encoded(member, below.get(name), exponents=exponents)}"
+            for name, member in value.items()
+        )
         return "{" + ",".join(members) + "}"
-    return "[" + ",".join(encoded(v, exponents) for v in value) + "]"
+    below = _of_elements(node)
+    return "[" + ",".join([encoded(each, below, exponents=exponents) for each in value]) + "]"
 
 
-def with_decimals(value: Any, node: Any) -> Any:
-    """Return a copy of a part of the model in which the floats know their decimals."""
-    if isinstance(value, dict):
-        members = node if isinstance(node, dict) else {}
-        return {k: with_decimals(v, members.get(k)) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        below = node.get("[]") if isinstance(node, dict) else None
-        return [with_decimals(v, below) for v in value]
-    if isinstance(node, int) and isinstance(value, (int, float)) and not isinstance(value, bool):
-        return Fixed(value, node)
-    return value
+def _encoded_number(value: float, node: Any, exponents: bool) -> str:
+    decimals = node if isinstance(node, int) else None
+    if decimals is None and isinstance(value, int):
+        return str(value)
+    text = number(value, decimals or 0)
+    if not exponents or text in ("0", "null"):
+        return text
+    # another form of the same value, with as many digits as it has
+    digits = text.strip("-").replace(".", "").strip("0")
+    return exponential(float(text), max(1, len(digits) - 1))
 
 
-def typed(model: Mapping[str, Any], key: str, decimals: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the model ready for output; only the top-level member that ``key`` asks for is new."""
-    wanted = re.split(r"[.\[^]", key.lstrip("#"), maxsplit=1)[0]
-    return {
-        name: with_decimals(value, decimals.get(name)) if wanted in ("", name, "*") else value
-        for name, value in model.items()
-    }
+def _of_elements(node: Any) -> Any:
+    """Return the decimals of a list's elements; of a list that a key has opened they are known."""
+    return node.get("[]", node) if isinstance(node, Mapping) else node
 
 
-def _shortened_axes(model: dict[str, Any], limit: int) -> dict[str, Any]:
+def _below(decimals: Any, key: str) -> Any:
+    """Return the decimals of what a key asks for; a length has none."""
+    node = None if key.startswith("#") else decimals
+    for step in _KEY_STEP.finditer(key):
+        node = node.get(step.group(1) or "[]") if isinstance(node, Mapping) else None
+    return node
+
+
+def _shortened_axes(model: Mapping[str, Any], limit: int) -> Mapping[str, Any]:
     """Return the model with ``move.axes`` cut to ``limit`` elements."""
     move = model.get("move") or {}
     if len(move.get("axes") or ()) <= limit:
@@ -197,7 +198,7 @@ class ModelText:
             asked = _key_up_to_leaf(model, key)
         if not self._firmware.has_important_flag:
             seen_flags = flags.replace("i", "")
-        part = typed(model, asked, self.decimals)
+        part = model
         limit = self._firmware.axes_limit
         if limit is not None and not re.search("[fa]", flags):
             part = _shortened_axes(part, limit)
@@ -205,17 +206,20 @@ class ModelText:
             # the firmware's default for an empty key, also with f (ObjectModel.cpp:693)
             seen_flags += "d1"
         found = answer(part, asked, seen_flags, self._marks)
-        text = self._text(key, flags, found, exponents)
+        text = self._text(key, flags, found, _below(self.decimals, asked), exponents)
         if len(utf8(text)) > self.most_bytes:
             return OUT_OF_BUFFERS
         return text
 
-    def _text(self, key: str, flags: str, found: Mapping[str, Any], exponents: bool) -> str:
+    def _text(
+        self, key: str, flags: str, found: Mapping[str, Any], node: Any, exponents: bool
+    ) -> str:
         head = f'{{"key":{quoted(key)},"flags":{quoted(flags)},"result":'
         result = found["result"]
         if "next" not in found or not isinstance(result, (list, tuple)):
-            return head + encoded(result, exponents) + "}"
-        parts = [encoded(element, exponents) for element in result]
+            return head + encoded(result, node, exponents=exponents) + "}"
+        below = _of_elements(node)
+        parts = [encoded(element, below, exponents=exponents) for element in result]
         count = _cut(parts, len(utf8(head)), self.array_bytes)
         following = found["next"] if count == len(parts) else first_element(flags) + count
         return f'{head}[{",".join(parts[:count])}],"next":{following}}}'

@@ -5,10 +5,11 @@ RRF 3.5 RepRap.cpp:1865-2030 and GetFileInfoResponse, GetThumbnailResponse.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Callable, NamedTuple
 
 from ...firmware import Firmware
-from ...model.om import ModelText, encoded, quoted, with_decimals
+from ...model.om import ModelText, encoded, quoted
 from ...model.tree import ObjectModel
 from ..card import Card, Entry
 from .fileinfo import file_info
@@ -186,13 +187,13 @@ class FileText:
         extra = "" if duration is None else f'"printDuration":{duration}'
         if info.get("thumbnails"):
             info = {**info, "thumbnails": [_in_order(one) for one in info["thumbnails"]]}
-        shown = with_decimals(info, self._model_text.decimals["job"]["file"])
+        decimals = self._model_text.decimals["job"]["file"]
         text = '{"err":0'
         for field in OLD_FIELDS if is_old else FIELDS:
-            if field not in shown or shown[field] is None and field != "generatedBy":
+            if field not in info or info[field] is None and field != "generatedBy":
                 continue
             before = f"{extra}," if extra and field == "thumbnails" else ""
-            text += f",{before}{quoted(field)}:{_shown(field, shown[field])}"
+            text += f",{before}{quoted(field)}:{_shown(field, info[field], decimals)}"
         if extra and is_old:
             text += f',{extra},"fileName":{quoted(info["fileName"])}'
         return text + "}"
@@ -202,10 +203,10 @@ def _in_order(thumbnail: dict[str, Any]) -> dict[str, Any]:
     return {name: thumbnail[name] for name in THUMBNAIL_FIELDS if name in thumbnail}
 
 
-def _shown(field: str, value: Any) -> str:
+def _shown(field: str, value: Any, decimals: Mapping[str, Any]) -> str:
     if field in HEIGHTS and not value:
         return "0.00"
-    return encoded("" if value is None else value)
+    return encoded("" if value is None else value, decimals.get(field))
 
 
 def piece_of_thumbnail(content: bytes, start: int, most: int) -> Piece:
