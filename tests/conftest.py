@@ -359,7 +359,7 @@ def browser():
 @pytest.fixture
 def page(browser, page_errors):
     """A page with cookies of its own; what goes wrong in it lands in ``page_errors``."""
-    context = browser.new_context(viewport=chromium.SIZE)
+    context = chromium.new_context(browser)
     yield chromium.new_page(context, page_errors)
     context.close()
 

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import PATIENCE_MS, SIZE, new_page, open_octoprint
+from tests.support.browser import PATIENCE_MS, new_context, new_page, open_octoprint
 from tests.support.sliced import PICTURE, sliced
 
 from . import bench
@@ -121,7 +121,7 @@ HEIGHTMAP = "/plugin/rrfmodel/heightmap"
 def test_height_map_has_colours_and_a_profile(browser, server, face):
     assert server.get(HEIGHTMAP).status_code == 404
     bench.at_panel(face, "G29 S1")
-    context, errors = browser.new_context(viewport=SIZE), []
+    context, errors = new_context(browser), []
     page = new_page(context, errors)
     open_octoprint(page, server, ADMIN, "/#tab_plugin_rrfmodel/machine")
     page.locator("[data-test=fold-bed]").click(timeout=PATIENCE_MS)

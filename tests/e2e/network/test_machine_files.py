@@ -5,7 +5,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import PATIENCE_MS, SIZE, new_page
+from tests.support.browser import PATIENCE_MS, SIZE, new_context, new_page
 
 from .. import helpers
 from ..page import CONFIRM, open_view, own_errors, part, unfold, wait_text
@@ -42,7 +42,7 @@ def opened(browser, server, errors):
     contexts = []
 
     def show(user, size=SIZE):
-        contexts.append(browser.new_context(viewport=size))
+        contexts.append(new_context(browser, size))
         page = new_page(contexts[-1], errors)
         open_view(page, server, user, "machine")
         return page, unfold(page.locator("#rrfmodel_machine_parts"), "volumes")

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import SIZE, new_page, open_octoprint
+from tests.support.browser import new_context, new_page, open_octoprint
 
 from .. import helpers
 from . import bench
@@ -22,7 +22,7 @@ def face(face_factory):
 def test_board_with_a_password_is_connected_in_the_panel(browser, server_factory, face):
     server = server_factory()
     host = face.url.partition("//")[2]
-    context, errors = browser.new_context(viewport=SIZE), []
+    context, errors = new_context(browser), []
     page = new_page(context, errors)
     open_octoprint(page, server, ADMIN)
     page.locator("#connection_option").select_option("rrfmodel")

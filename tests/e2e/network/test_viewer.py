@@ -1,7 +1,7 @@
 """OctoPrint's own viewer of G-code and a print of the board's card."""
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, SIZE, new_page, open_octoprint
+from tests.support.browser import PATIENCE_MS, new_context, new_page, open_octoprint
 
 from .. import helpers
 from . import bench
@@ -32,7 +32,7 @@ def test_it_has_the_cards_file_and_follows_the_print(browser, server, face):
     )
     bench.at_panel(face, 'M32 "0:/gcodes/layers.gcode"')
     server.wait_state("Printing", 20)
-    context, errors = browser.new_context(viewport=SIZE), []
+    context, errors = new_context(browser), []
     page = new_page(context, errors)
     open_octoprint(page, server, ADMIN, "/#gcode")
 

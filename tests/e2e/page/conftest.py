@@ -138,7 +138,7 @@ def context_of(browser, shared_server):
 
     def context(user):
         if user not in known:
-            known[user] = browser.new_context(viewport=chromium.SIZE)
+            known[user] = chromium.new_context(browser)
         return known[user]
 
     yield context
@@ -229,6 +229,6 @@ def own_page(context_of, server, page_errors):
 @pytest.fixture
 def fresh_page(browser, page_errors):
     """A page with cookies and a clock of its own: nobody is logged in."""
-    context = browser.new_context(viewport=chromium.SIZE)
+    context = chromium.new_context(browser)
     yield chromium.new_page(context, page_errors)
     context.close()
