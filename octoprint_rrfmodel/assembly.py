@@ -88,7 +88,7 @@ class Assembly:
         self.model = self._known.model
         self._reports = TemperatureReports(self._follower, self._known, self._listeners.warmed)
         self._heater_ages, self._simulation = HeaterAges(self._clock), LastSimulation(self.model)
-        self._pages = Pages(host.tell_pages)
+        self._pages = Pages(host.tell_pages, lambda: host.plugins().registered_clients)
         self._notifications = Notifications(self._pages.tell, self._clock)
         self.setup = Setup(host, self._links, self._known)
 

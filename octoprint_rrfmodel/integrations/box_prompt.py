@@ -49,7 +49,10 @@ class BoxPrompt:
 
     def look(self):
         """Show what is new, close what is gone."""
-        box = self._box() if self._is_on() else NO_BOX
+        box = self._box()
+        # mostly there is none, and to look up a setting takes OctoPrint longer than all of this
+        if "seq" in box and not self._is_on():
+            box = NO_BOX
         if box.get("seq") == self._shown.get("seq"):
             return
         handle, comm = self._handler(ACTION_HOOK), self._link.connection

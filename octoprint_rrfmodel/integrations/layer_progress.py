@@ -88,8 +88,9 @@ class LayerProgress:
         if self._looked_at is not None and clock < self._looked_at + SHORTEST_SECONDS:
             return self._looked_at + SHORTEST_SECONDS - clock
         self._looked_at = clock
-        print_ = self._print() if self._is_wanted() else None
-        if print_ is not None:
+        # mostly there is none, and to look up a setting takes OctoPrint longer than all of this
+        print_ = self._print()
+        if print_ is not None and self._is_wanted():
             self._update(print_, clock)
         elif self._sent is not None:
             self._end()

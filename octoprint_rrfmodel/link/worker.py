@@ -23,22 +23,36 @@ Which thread runs what:
 """
 
 import logging
+import math
 import queue
 import threading
+import time
 
 LONGEST_WAIT = 0.5
+"""Between two looks of each tick: what changes on another thread may leave no note."""
+
+
+GRID = 0.125
+"""What isn't due soon is due together with others: to wake costs more than most looks."""
+
+
+def _due_at(now, wait):
+    """Return when a tick that wants to wait so long is called again."""
+    due_at = now + min(wait, LONGEST_WAIT)
+    return due_at if wait < 2 * GRID else math.ceil(due_at / GRID) * GRID
 
 
 class Worker:
     """Calls handlers by the name of each note, and between notes whatever is due.
 
     ``handlers`` maps a note's name to a callable. ``ticks`` are callables without arguments that
-    return the seconds until they want to be called again.
+    return the seconds until they want to be called again; behind a note all of them are called.
     """
 
     def __init__(self, name):
         self._handlers = {}
-        self._ticks = ()
+        # tick -> when it is due
+        self._ticks = {}
         self._notes = queue.SimpleQueue()
         self._logger = logging.getLogger("octoprint.plugins.rrfmodel.worker")
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
@@ -46,7 +60,7 @@ class Worker:
     def attach(self, handlers, ticks=()):
         """Take the handlers and what is called between notes; before ``start``."""
         self._handlers = handlers
-        self._ticks = ticks
+        self._ticks = dict.fromkeys(ticks, 0.0)
 
     def start(self):
         """Begin to work through the notes, also those that are there already."""
@@ -67,11 +81,14 @@ class Worker:
         return self._notes.qsize()
 
     def _run(self):
+        has_news = True
         while True:
             try:
-                note = self._notes.get(timeout=self._wait())
+                note = self._notes.get(timeout=self._wait(has_news))
             except queue.Empty:
+                has_news = False
                 continue
+            has_news = True
             if note is None:
                 return
             name, arguments = note
@@ -80,12 +97,22 @@ class Worker:
             except Exception:
                 self._logger.exception("Could not handle %s", name)
 
-    def _wait(self):
-        """Run what is due and return how long nothing will be."""
-        wait = LONGEST_WAIT
-        for tick in self._ticks:
-            try:
-                wait = min(wait, tick())
-            except Exception:
-                self._logger.exception("Could not run %s", tick)
-        return wait
+    def _wait(self, has_news):
+        """Run what is due, with news everything, and return how long nothing will be.
+
+        ``None`` where nothing ever is.
+        """
+        if not self._ticks:
+            return None
+        now = time.monotonic()
+        soonest = now + LONGEST_WAIT
+        for tick, due_at in self._ticks.items():
+            if has_news or due_at <= now:
+                try:
+                    due_at = _due_at(now, tick())
+                except Exception:
+                    self._logger.exception("Could not run %s", tick)
+                    due_at = now + LONGEST_WAIT
+                self._ticks[tick] = due_at
+            soonest = min(soonest, due_at)
+        return max(0.0, soonest - time.monotonic())

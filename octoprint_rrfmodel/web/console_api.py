@@ -49,7 +49,10 @@ class Console:
         if due > 0:
             return due
         self._looked_at = now
-        if self._pages.are_behind():
+        if not self._pages.are_there():
+            # a page that opens reads what was said until then
+            self._told = self._store.newest
+        if self._told == self._store.newest or self._pages.are_behind():
             return SHORTEST_SECONDS
         lines = self._store.since(self._told)
         if lines:

@@ -15,9 +15,14 @@ NEEDED = {"console": ("MONITOR_TERMINAL",)}
 
 
 class Pages:
-    """Tells the pages in order; any thread may call ``tell``. ``send(message)`` may take long."""
+    """Tells the pages in order; any thread may call ``tell``.
 
-    def __init__(self, send):
+    ``send(message)`` may take long. ``receivers()`` are those that OctoPrint hands messages to:
+    open pages, and plugins that registered for them.
+    """
+
+    def __init__(self, send, receivers):
+        self._receivers = receivers
         self._worker = Worker("rrfmodel.pages")
         self._worker.attach({"tell": send})
         self.start = self._worker.start
@@ -27,6 +32,10 @@ class Pages:
         """Have the pages told, and return."""
         if self._worker.waiting < MOST_WAITING:
             self._worker.notify("tell", message)
+
+    def are_there(self):
+        """Return whether anybody would be told."""
+        return bool(self._receivers())
 
     def are_behind(self):
         """Return whether an earlier message has not been taken yet."""

@@ -22,7 +22,7 @@ class ModelPush:
     """Tells the pages; runs on the worker thread.
 
     ``pages`` reach them. ``model()`` is the snapshot, ``status()`` the plugin's state. While they
-    are behind it only goes on collecting.
+    are behind, or there are none, it only goes on collecting.
     """
 
     def __init__(self, pages, model, status, *, clock):
@@ -62,7 +62,8 @@ class ModelPush:
         due = self._looked_at + SHORTEST_SECONDS - now
         if due > 0:
             return due
-        if self._pages.are_behind():
+        # a page that opens reads all of it, and is told what has changed meanwhile
+        if self._pages.are_behind() or not self._pages.are_there():
             return SHORTEST_SECONDS
         self._looked_at = now
         status = self._status()

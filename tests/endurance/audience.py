@@ -123,7 +123,7 @@ class Audience:
             self._stay()
 
     def _subscribe(self):
-        socket = websocket.WebSocket()
+        socket = websocket.WebSocket(skip_utf8_validation=True)
         address = self._server.url.replace("http", "ws", 1) + PATH
         socket.connect(address, timeout=30, header={"X-Api-Key": READER.api_key})
         try:

@@ -28,7 +28,7 @@ class Picture:
 
     def __init__(self, server):
         self._server = server
-        self._socket = websocket.WebSocket()
+        self._socket = websocket.WebSocket(skip_utf8_validation=True)
         self._thread = threading.Thread(target=self._collect, daemon=True)
         self._objects = {}
         self.told = 0

@@ -84,7 +84,10 @@ class PluginLine:
             get_current_or_default=lambda: PROFILE, get=lambda name: PROFILE, save=lambda *a, **m: 0
         )
         plugins = SimpleNamespace(
-            get_hooks=lambda hook: {}, get_helpers=lambda *names: None, enabled_plugins={}
+            get_hooks=lambda hook: {},
+            get_helpers=lambda *names: None,
+            enabled_plugins={},
+            registered_clients=[],
         )
         # the parts take the clock where they are made
         with mock.patch.object(assembly, "time", SimpleNamespace(monotonic=clock)):

@@ -27,7 +27,8 @@ class PushListener:
         self.messages: list[tuple[str, Any]] = []
         self._server = server
         self._user = user
-        self._socket = websocket.WebSocket()
+        # validating in Python takes longer than all else of a message, and decoding does it anyway
+        self._socket = websocket.WebSocket(skip_utf8_validation=True)
         self._thread = threading.Thread(target=self._collect, daemon=True)
 
     def __enter__(self) -> PushListener:

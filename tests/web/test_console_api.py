@@ -14,13 +14,21 @@ class Rig:
         self.tell = self.told.append
         self.now = 0.0
         self.is_behind = False
+        self.is_there = True
         self.console = Console(self, self, lambda: self.now)
 
     def since(self, number):
         return [line for line in self.lines if line["number"] > number]
 
+    @property
+    def newest(self):
+        return len(self.lines)
+
     def are_behind(self):
         return self.is_behind
+
+    def are_there(self):
+        return self.is_there
 
     def say(self, count):
         last = len(self.lines)
@@ -55,3 +63,14 @@ def test_pages_that_are_behind_get_it_later():
     assert rig.tick() == []
     rig.is_behind = False
     assert rig.tick() == [(2, 0)]
+
+
+def test_what_was_said_before_anybody_was_there_is_read_and_not_told():
+    rig = Rig()
+    rig.say(2)
+    rig.is_there = False
+    assert rig.tick() == []
+    rig.is_there = True
+    assert rig.tick() == []
+    rig.say(1)
+    assert rig.tick() == [(1, 0)]

@@ -1,6 +1,7 @@
 """What was said on the line lately: no polls of the plugin's, no file's lines, no secrets."""
 
 import collections
+import itertools
 import re
 import threading
 import time
@@ -98,11 +99,19 @@ class GcodeStore:
             lines = lines[len(lines) - count :]
         return [{name: line[name] for name in MOONRAKERS} for line in lines]
 
+    @property
+    def newest(self):
+        """Number of the newest line, 0 before the first."""
+        return self._number
+
     def since(self, number):
         """Return the lines behind one with that number, oldest first: with their numbers, and
         whether a person asked for them."""
         with self._lock:
-            return [line for line in self._lines if line["number"] > number]
+            # each has the number behind that of the one before
+            count = min(self._number - number, len(self._lines))
+            latest = itertools.islice(reversed(self._lines), max(0, count))
+            return list(latest)[::-1]
 
     def _note(self, message, kind):
         # commands and responses come by threads of their own

@@ -58,7 +58,7 @@ class Socket:
     """A client's socket: one call after the other."""
 
     def __init__(self, url, query="", **options):
-        self._socket = websocket.WebSocket()
+        self._socket = websocket.WebSocket(skip_utf8_validation=True)
         self._socket.settimeout(15)
         self._last = 0
         try:

@@ -28,7 +28,7 @@ class Socket:
         if user is not None:
             options.setdefault("header", {"X-Api-Key": user.api_key})
         address = server.url.replace("http", "ws", 1) + PATH + query
-        self._socket = websocket.WebSocket()
+        self._socket = websocket.WebSocket(skip_utf8_validation=True)
         self._socket.settimeout(10)
         try:
             self._socket.connect(address, **options)
