@@ -196,8 +196,8 @@ def test_same_request_is_computed_once_for_all(bench, monkeypatch):
         monkeypatch.setattr(module, attribute, count)
 
     connections = [bench.subscribe(BED)[0] for _ in range(100)]
-    counting("status", klipper, "status")
-    counting("difference", klipper, "difference")
+    counting("status", klipper.Moment, "status")
+    counting("difference", klipper.Moment, "difference")
     counting("text", subscribers.jsonrpc, "notification")
     bench.heat(2)
     assert counted == {"status": 1, "difference": 1, "text": 1}

@@ -2,7 +2,8 @@
 
     Kept.observe(model, host, now), Kept.heard(line)     after each reply, each line of text
     World(model, host, kept.snapshot, eventtime)         one moment
-    names, status, difference                            what a client gets of it
+    names, status                                        what a client gets of it
+    Moment(world)                                        the same for many, and what has changed
     temperature_store                                    the last hour, for charts
     as_said, refusal                                     lines and refusals with Klipper's mark
 
@@ -12,7 +13,7 @@ Objects and fields are as in Klipper's status reference; what they come from is 
 
 from .info import printer_info, server_info
 from .kept import Kept
-from .query import OBJECTS, difference, names, status, wanted_of
+from .query import OBJECTS, Moment, names, status, wanted_of
 from .said import as_said, refusal
 from .temperature_store import STORE_SECONDS, temperature_store
 from .world import Accumulated, Host, HostJob, World
@@ -24,9 +25,9 @@ __all__ = [
     "Host",
     "HostJob",
     "Kept",
+    "Moment",
     "World",
     "as_said",
-    "difference",
     "names",
     "printer_info",
     "refusal",

@@ -52,22 +52,53 @@ def status(world: World, wanted: Wanted) -> dict[str, dict[str, Any]]:
     An object that isn't there is ``{}``, a field that isn't ``None``. Every value is one that JSON
     has. Only what is wanted is computed.
     """
-    view = seen(world)
-    known: dict[str, Mapping[str, Any]] = {}
-    result = {}
-    for name, fields in wanted.items():
-        row, thing = _found(view, known, name)
-        result[name] = {} if row is None else _values(view, row, thing, fields)
-    return result
+    return Moment(world).status(wanted)
 
 
-def _found(view: View, known: dict[str, Mapping[str, Any]], name: str) -> tuple[Row | None, Any]:
-    for row in _FAMILIES.get(family(name), ()):
-        if row.name not in known:
-            known[row.name] = row.things(view)
-        if name in known[row.name]:
-            return row, known[row.name][name]
-    return None, None
+class Moment:
+    """One world that many look at: what several want is computed and compared once."""
+
+    def __init__(self, world: World) -> None:
+        self._view = seen(world)
+        self._things: dict[str, Mapping[str, Any]] = {}
+        self._values: dict[tuple[str, tuple[str, ...] | None], dict[str, Any]] = {}
+        # the objects are kept beside what differs, so that no other has their identities
+        self._differences: dict[tuple[int, int], tuple[Any, Any, dict[str, Any]]] = {}
+
+    def status(self, wanted: Wanted) -> dict[str, dict[str, Any]]:
+        """Return what ``status`` does; who wants the same of an object gets the same one."""
+        return {name: self._object(name, fields) for name, fields in wanted.items()}
+
+    def difference(
+        self, last: Mapping[str, Mapping[str, Any]], now: Mapping[str, Mapping[str, Any]]
+    ) -> dict[str, dict[str, Any]]:
+        """Return the fields of ``now`` that are other than in ``last``, each as a whole.
+
+        A field that is gone is ``None``. Objects without changes are left out.
+        """
+        found = {name: self._changed(last.get(name, {}), fields) for name, fields in now.items()}
+        return {name: changed for name, changed in found.items() if changed}
+
+    def _object(self, name: str, fields: Sequence[str] | None) -> dict[str, Any]:
+        key = name, tuple(fields) if fields else None
+        if key not in self._values:
+            row, thing = self._found(name)
+            self._values[key] = {} if row is None else _values(self._view, row, thing, fields)
+        return self._values[key]
+
+    def _changed(self, before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:
+        key = id(before), id(now)
+        if key not in self._differences:
+            self._differences[key] = before, now, _changed_fields(before, now)
+        return self._differences[key][2]
+
+    def _found(self, name: str) -> tuple[Row | None, Any]:
+        for row in _FAMILIES.get(family(name), ()):
+            if row.name not in self._things:
+                self._things[row.name] = row.things(self._view)
+            if name in self._things[row.name]:
+                return row, self._things[row.name][name]
+        return None, None
 
 
 def _values(view: View, row: Row, thing: Any, fields: Sequence[str] | None) -> dict[str, Any]:
@@ -83,25 +114,14 @@ def _values(view: View, row: Row, thing: Any, fields: Sequence[str] | None) -> d
     return result
 
 
-def difference(
-    last: Mapping[str, Mapping[str, Any]], now: Mapping[str, Mapping[str, Any]]
-) -> dict[str, dict[str, Any]]:
-    """Return the fields of ``now`` that are other than in ``last``, each as a whole.
-
-    A field that is gone is ``None``. Objects without changes are left out.
-    """
-    result = {}
-    for name, fields in now.items():
-        before = last.get(name, {})
-        changed = {
-            field: value
-            for field, value in fields.items()
-            if field not in before or _differs(before[field], value)
-        }
-        changed.update((field, None) for field in before if field not in fields)
-        if changed:
-            result[name] = changed
-    return result
+def _changed_fields(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:
+    changed = {
+        field: value
+        for field, value in now.items()
+        if field not in before or _differs(before[field], value)
+    }
+    changed.update((field, None) for field in before if field not in now)
+    return changed
 
 
 def _differs(old: Any, new: Any) -> bool:

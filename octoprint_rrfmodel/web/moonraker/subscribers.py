@@ -108,14 +108,15 @@ class Subscribers:
     def _texts(self, told):
         """Return for each group of subscribers its status and what to tell; not on the loop."""
         world = self._world()
+        moment = klipper.Moment(world)
         statuses = {}
         texts = {}
         for group, last in told.items():
             wanted, _ = group
             if wanted not in statuses:
-                statuses[wanted] = klipper.status(world, dict(wanted))
+                statuses[wanted] = moment.status(dict(wanted))
             status = statuses[wanted]
-            texts[group] = status, _text(klipper.difference(last, status), world.eventtime)
+            texts[group] = status, _text(moment.difference(last, status), world.eventtime)
         return texts
 
     def _tell(self, due, texts):

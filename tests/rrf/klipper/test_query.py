@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from octoprint_rrfmodel.rrf.klipper import OBJECTS, difference, names, status, wanted_of
+from octoprint_rrfmodel.rrf.klipper import OBJECTS, Moment, names, status, wanted_of
 from tests.support.places import ROOT
 
 from . import MODELS, changed, get, model_of, whole, world
@@ -119,6 +119,10 @@ def test_fields_are_the_models_own_values_no_longer():
     assert 1 not in model["global"]["speeds"]
 
 
+def difference(last, now):
+    return Moment(world(model_of())).difference(last, now)
+
+
 DIFFERENCES = [
     pytest.param({}, {}, {}, id="nothing"),
     pytest.param({"a": {"x": 1}}, {"a": {"x": 1}}, {}, id="the same"),
@@ -155,6 +159,15 @@ def test_time_that_passes_changes_nothing_of_a_machine_at_rest():
     at, later = world(model, now=1.0), world(model, now=1.5)
     wanted = dict.fromkeys(names(at))
     assert difference(status(at, wanted), status(later, wanted)) == {}
+
+
+def test_what_several_want_is_one_object():
+    moment = Moment(world(model_of()))
+    one = moment.status({"heater_bed": None, "toolhead": ["position"]})
+    other = moment.status({"heater_bed": (), "toolhead": ("position", "homed_axes"), "fan": None})
+    assert one["heater_bed"] is other["heater_bed"]
+    assert set(one["toolhead"]) < set(other["toolhead"])
+    assert one == status(world(model_of()), {"heater_bed": None, "toolhead": ["position"]})
 
 
 def test_wanted_of():
