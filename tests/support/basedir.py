@@ -92,6 +92,10 @@ def merged(*layers: dict[str, Any] | None) -> dict[str, Any]:
     return result
 
 
+# a hash is meant to take long, and these guard nothing: each start makes some, each login one
+HASHER = argon2.PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
+
+
 def configuration(
     version: str,
     *,
@@ -157,13 +161,12 @@ def write_basedir(
     _dump(basedir / "config.yaml", config)
     # left by a start that was broken off; without plugins there would be nothing to see
     (basedir / ".incomplete_startup").unlink(missing_ok=True)
-    hasher = argon2.PasswordHasher()
     accounts = {
         user.name: {
             "active": True,
             "apikey": user.api_key,
             "groups": [user.group],
-            "password": hasher.hash(user.password),
+            "password": HASHER.hash(user.password),
             "permissions": [],
             "roles": ["user", "admin"] if user.group == "admins" else ["user"],
             "settings": {},

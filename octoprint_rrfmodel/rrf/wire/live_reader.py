@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .reply import scan_value
+from .reply import scanner_of
 
 _RESULT = '"result":{'
 
@@ -39,12 +39,14 @@ class LiveReader:
     def _compared(self, text: str) -> dict[str, Any] | None:
         position = len(self._head)
         changed = {}
+        scan = None
         for index, (name, start, known) in enumerate(self._members):
             if text.startswith(known, position):
                 position += len(known)
             elif text.startswith(start, position):
+                scan = scan or scanner_of(text)
                 try:
-                    changed[name], end = scan_value(text, position + len(start))
+                    changed[name], end = scan(text, position + len(start))
                 except _UNREADABLE:
                     return None
                 self._members[index] = (name, start, text[position:end])
@@ -61,11 +63,12 @@ class LiveReader:
             return
         position = at + len(_RESULT)
         members: list[tuple[str, str, str]] = []
+        scan = scanner_of(text)
         try:
             while text[position] != "}":
                 start = position
-                name, colon = scan_value(text, position + 1 if members else position)
-                end = scan_value(text, colon + 1)[1]
+                name, colon = scan(text, position + 1 if members else position)
+                end = scan(text, colon + 1)[1]
                 members.append((name, text[start : colon + 1], text[start:end]))
                 position = end
         except _UNREADABLE:

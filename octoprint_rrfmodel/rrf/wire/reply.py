@@ -6,7 +6,7 @@ import json
 import math
 import re
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any, Callable, NamedTuple
 
 from .line import MODEL_REPLY, NO_BUFFERS
 
@@ -61,8 +61,12 @@ class FolderPage(NamedTuple):
 _LITERAL = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|-?\b(?:nan|inf)\b')
 """A string, to its end or that of all, or a word that M408 prints for a number that is none."""
 
-_HUGE = re.compile(r"[0-9](?:[eE]\+?[0-9]{3}|[0-9]{300})")
-"""An exponent, or digits, that may leave the range of a float."""
+_EXPONENTS = (re.compile(r"e\+?[0-9]{3}"), re.compile(r"E\+?[0-9]{3}"))
+"""Exponents that may leave the range of a float; what begins with one letter is found fastest."""
+
+_APART = 50
+_LONG_NUMBER = re.compile(r"[0-9]{6}")
+"""What every fiftieth letter of 300 digits is: they may leave the range of a float, too."""
 
 
 _FOREIGN = re.compile(r'"[\x00-!#-\x7f]*[^\x00-\x7f][^"]*"')
@@ -81,11 +85,24 @@ def _no_number(_text: str) -> None:
     return None
 
 
+def _may_be_huge(text: str) -> bool:
+    """Return whether a number in it might be one that no float holds."""
+    return bool(
+        _LONG_NUMBER.search(text[::_APART]) or any(each.search(text) for each in _EXPONENTS)
+    )
+
+
 _DECODER = json.JSONDecoder(parse_constant=_no_number)
 _CAREFUL_DECODER = json.JSONDecoder(parse_constant=_no_number, parse_float=_finite)
 
-scan_value: Any = _CAREFUL_DECODER.scan_once  # type: ignore[attr-defined]
-"""``(text, start) -> (value, end)``; raises ``StopIteration`` or ``ValueError``."""
+
+def scanner_of(text: str) -> Callable[[str, int], tuple[Any, int]]:
+    """Return what reads one value of a text.
+
+    ``(text, start) -> (value, end)``; it raises ``StopIteration`` or ``ValueError``.
+    """
+    decoder = _CAREFUL_DECODER if _may_be_huge(text) else _DECODER
+    return decoder.scan_once  # type: ignore[attr-defined, no-any-return]
 
 
 def decode(text: str) -> ModelReply | StatusReply | NoBuffers:
@@ -150,7 +167,7 @@ def _entries(files: list[dict[str, Any]]) -> Iterator[FolderEntry]:
 
 def members_of(text: str) -> dict[str, Any]:
     """Return the members of a reply; raise ``MalformedReply`` for a text that is no object."""
-    decoder = _CAREFUL_DECODER if _HUGE.search(text) else _DECODER
+    decoder = _CAREFUL_DECODER if _may_be_huge(text) else _DECODER
     try:
         try:
             members = decoder.decode(text)
