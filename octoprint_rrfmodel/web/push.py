@@ -22,7 +22,7 @@ class ModelPush:
     """Tells the pages; runs on the worker thread.
 
     ``pages`` reach them. ``model()`` is the snapshot, ``status()`` the plugin's state. While they
-    are behind, or there are none, it only goes on collecting.
+    are behind it only goes on collecting, and while there are none it forgets.
     """
 
     def __init__(self, pages, model, status, *, clock):
@@ -62,8 +62,12 @@ class ModelPush:
         due = self._looked_at + SHORTEST_SECONDS - now
         if due > 0:
             return due
-        # a page that opens reads all of it, and is told what has changed meanwhile
-        if self._pages.are_behind() or not self._pages.are_there():
+        if not self._pages.are_there():
+            # a page that opens reads all of it
+            self._changed.clear()
+            self._forgotten = False
+            return SHORTEST_SECONDS
+        if self._pages.are_behind():
             return SHORTEST_SECONDS
         self._looked_at = now
         status = self._status()

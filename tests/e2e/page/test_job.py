@@ -98,7 +98,12 @@ def begin(server, board, path="0:/gcodes/parts/clip.gcode"):
 @pytest.fixture
 def view(page, server, idle):
     begin(server, idle)
-    return show_view(page, "job")
+    view = show_view(page, "job")
+    # what comes late makes lines longer, and a button that moves away isn't clicked
+    wait_text(part(view, "layer"), "/ 60")
+    wait_text(part(view, "job-ends"), "ends ")
+    wait_text(part(view, "printTime"), "0:02:05")
+    return view
 
 
 def confirm(page):
