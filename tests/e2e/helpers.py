@@ -200,9 +200,7 @@ def model_differences(server, board, keys=None):
         own["state"]["thisInput"] = 3
     # by one request: a test asks for this again and again
     known = value(server, "")
-    return [
-        difference for key in keys for difference in differences(known.get(key), own[key], key)
-    ]
+    return [difference for key in keys for difference in differences(known.get(key), own[key], key)]
 
 
 def wait_equal(server, board, seconds=SETTLED_SECONDS):
