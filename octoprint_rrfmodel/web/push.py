@@ -34,7 +34,7 @@ class ModelPush:
         self._changed = set()
         self._forgotten = False
         self._told = None
-        self._looked_at = 0.0
+        self._looked_at = self._sent_at = 0.0
 
     ##~~ a listener
 
@@ -59,7 +59,9 @@ class ModelPush:
     def tick(self):
         """Send what is due; return the seconds until something may be."""
         now = self._clock()
-        due = self._looked_at + SHORTEST_SECONDS - now
+        # what has changed is told at once behind a pause, the state is looked at again and again
+        is_news = self._changed or self._forgotten
+        due = (self._sent_at if is_news else self._looked_at) + SHORTEST_SECONDS - now
         if due > 0:
             return due
         if not self._pages.are_there():
@@ -87,5 +89,5 @@ class ModelPush:
             self._send({"type": "status", "status": status})
         else:
             return SHORTEST_SECONDS
-        self._told = told
+        self._told, self._sent_at = told, now
         return SHORTEST_SECONDS
