@@ -39,8 +39,7 @@ GRID = 0.125
 def _due_at(now, wait):
     """Return when a tick that wants to wait so long is called again."""
     due_at = now + min(wait, LONGEST_WAIT)
-    # only what would be due at the latest time anyway: the rest of a pause is somebody's waiting
-    return due_at if wait < LONGEST_WAIT else math.ceil(due_at / GRID) * GRID
+    return due_at if wait < 2 * GRID else math.ceil(due_at / GRID) * GRID
 
 
 class Worker:
