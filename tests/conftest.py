@@ -198,15 +198,16 @@ def pytest_runtest_makereport(item, call):
     """Attach to the report of a failure what the running servers logged and what the page does."""
     report = yield
     if report.failed:
-        # the test's own first: what was lent to a whole session comes last
-        for server in reversed(RUNNING):
-            report.sections.append((f"OctoPrint at {server.url}", server.log_tail()))
-            report.sections.append((f"serial port of {server.url}", server.serial_log_tail()))
         page = getattr(item, "funcargs", {}).get("page")
+        # before the logs, of which a CI machine shows the beginning only
         if page is not None and call.when == "call":
             from tests.support.page_report import page_report
 
             report.sections.append(("the page", page_report(page)))
+        # the test's own first: what was lent to a whole session comes last
+        for server in reversed(RUNNING):
+            report.sections.append((f"OctoPrint at {server.url}", server.log_tail()))
+            report.sections.append((f"serial port of {server.url}", server.serial_log_tail()))
     return report
 
 

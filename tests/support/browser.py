@@ -49,6 +49,8 @@ def new_page(context: Any, errors: list[str]) -> Any:
 
     page = context.new_page()
     page.set_default_timeout(PATIENCE_MS)
+    # no page lets itself be attached to any more once a script of it goes on for ever
+    page.devtools = context.new_cdp_session(page)
     page.on("pageerror", lambda error: errors.append(error.stack or str(error)))
     page.on("console", from_console)
     return page

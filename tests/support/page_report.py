@@ -24,7 +24,20 @@ def _page(page: Any) -> str:
         page.wait_for_function("() => true", timeout=ANSWER_MS)
         return f"{page.url} answers; it shows:\n{page.inner_text('body', timeout=ANSWER_MS)[:2000]}"
     except Error as error:
-        return f"{page.url} doesn't answer: {error}"
+        return f"{page.url} doesn't answer: {error}\n{_without_script(page)}"
+
+
+def _without_script(page: Any) -> str:
+    """Return whether the page answers once what its script is at has been ended."""
+    from playwright.sync_api import Error
+
+    try:
+        # one of the few requests that Chromium answers beside a script that runs
+        page.devtools.send("Runtime.terminateExecution")
+        page.wait_for_function("() => true", polling=100, timeout=ANSWER_MS)
+        return "it answers with its script ended"
+    except Error as error:
+        return f"nor with its script ended: {error}"
 
 
 def _processes(page: Any) -> list[str]:

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import PATIENCE_MS, new_context, new_page, open_octoprint
+from tests.support.browser import new_context, new_page, open_octoprint
 from tests.support.sliced import PICTURE, sliced
 
 from . import bench
@@ -124,9 +124,9 @@ def test_height_map_has_colours_and_a_profile(browser, server, face):
     context, errors = new_context(browser), []
     page = new_page(context, errors)
     open_octoprint(page, server, ADMIN, "/#tab_plugin_rrfmodel/machine")
-    page.locator("[data-test=fold-bed]").click(timeout=PATIENCE_MS)
+    page.locator("[data-test=fold-bed]").click()
     cells = page.locator("[data-test=mesh-cell]")
-    expect(cells).to_have_count(110, timeout=PATIENCE_MS)
+    expect(cells).to_have_count(110)
     assert cells.first.locator("title").text_content() == "X 15, Y 15: +0.053 mm"
     fills = {cell.get_attribute("fill") for cell in cells.all()}
     assert {fill.rpartition(",")[0] for fill in fills} == {"rgba(47, 134, 214", "rgba(217, 83, 79"}
@@ -137,7 +137,7 @@ def test_height_map_has_colours_and_a_profile(browser, server, face):
     query = server.get("/plugin/rrfmodel/printer/objects/query?bed_mesh").json()["result"]
     assert query["status"]["bed_mesh"]["probed_matrix"] == found["points"]
     bench.at_panel(face, "G29 S2")
-    expect(cells).to_have_count(0, timeout=PATIENCE_MS)
+    expect(cells).to_have_count(0)
     assert server.get(HEIGHTMAP).status_code == 404
     context.close()
     assert errors == []

@@ -5,7 +5,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import PATIENCE_MS, SIZE, new_context, new_page
+from tests.support.browser import SIZE, new_context, new_page
 
 from .. import helpers
 from ..page import CONFIRM, open_view, own_errors, part, unfold, wait_text
@@ -55,7 +55,7 @@ def opened(browser, server, errors):
 def dialog_of(page, card):
     part(card, "files-open").click()
     dialog = page.locator("#rrfmodel_files")
-    expect(dialog).to_be_visible(timeout=PATIENCE_MS)
+    expect(dialog).to_be_visible()
     expect(part(dialog, "files-entry").first).to_be_visible()
     return dialog
 
@@ -108,7 +108,7 @@ def test_listed_changed_with_a_copy_and_restarted(opened, server, face, errors):
         expect(text).to_have_value("; mine\n" + before)
     part(dialog, "files-save").click()
     expect(part(dialog, "files-restart")).to_be_visible()
-    part(dialog, "files-restart").click(timeout=PATIENCE_MS)
+    part(dialog, "files-restart").click()
     assert stored(face, "0:/sys/config.g").replace("\r", "") == "; mine\n" + before
     resets = helpers.status(server)["resets"]
     page.locator(CONFIRM).click()
@@ -149,7 +149,7 @@ def test_records_are_curves_by_keyboard_on_a_narrow_screen(opened, errors):
     part(card, "files-open").focus()
     page.keyboard.press("Enter")
     dialog = page.locator("#rrfmodel_files")
-    expect(dialog).to_be_visible(timeout=PATIENCE_MS)
+    expect(dialog).to_be_visible()
 
     def by_keys(name):
         expect(name).to_be_visible()
@@ -201,6 +201,6 @@ def test_only_who_may_change_settings_over_the_network(opened, server, face, boa
     assert page.evaluate("RRFModel.showFiles") is None
     helpers.disconnect(server)
     helpers.connect(server, board_factory(machine="cartesian"))
-    expect(part(card, "volume").first).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(card, "volume").first).to_be_visible()
     expect(part(card, "files-open")).to_have_count(0)
     assert own_errors(errors) == []

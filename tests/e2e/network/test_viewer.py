@@ -1,7 +1,7 @@
 """OctoPrint's own viewer of G-code and a print of the board's card."""
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, new_context, new_page, open_octoprint
+from tests.support.browser import new_context, new_page, open_octoprint
 
 from .. import helpers
 from . import bench
@@ -36,7 +36,7 @@ def test_it_has_the_cards_file_and_follows_the_print(browser, server, face):
     page = new_page(context, errors)
     open_octoprint(page, server, ADMIN, "/#gcode")
 
-    page.wait_for_function(f"() => {VIEWER}.loadedFilePath", timeout=PATIENCE_MS)
+    page.wait_for_function(f"() => {VIEWER}.loadedFilePath")
     assert page.evaluate(f"[{VIEWER}.loadedFileStorage, {VIEWER}.loadedFilePath]") == [
         "printer",
         "layers.gcode",

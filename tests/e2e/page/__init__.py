@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import waiting
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 
@@ -37,14 +37,14 @@ def show_view(page, view):
 
 def _seen(page, view):
     region = page.locator(f"#rrfmodel_{view}")
-    region.locator("visible=true").first.wait_for(timeout=PATIENCE_MS)
+    region.locator("visible=true").first.wait_for()
     return region
 
 
 def show_terminal(page):
     """Show OctoPrint's terminal: what the strip tells is told elsewhere then."""
     page.locator('#tabs a[href="#term"]').evaluate("link => link.click()")
-    page.locator("#term").wait_for(state="visible", timeout=PATIENCE_MS)
+    page.locator("#term").wait_for(state="visible")
 
 
 def part(region, name):
@@ -61,7 +61,7 @@ def heat_row(view, heater, tool=None):
 def unfold(view, name):
     """Return a section of the sub-view Machine once it is open."""
     head = part(view, f"fold-{name}")
-    expect(head).to_be_visible(timeout=PATIENCE_MS)
+    expect(head).to_be_visible()
 
     def is_open():
         if head.get_attribute("aria-expanded") == "true":
@@ -74,9 +74,9 @@ def unfold(view, name):
     return part(view, name)
 
 
-def wait_text(locator, wanted, seconds=SECONDS):
+def wait_text(locator, wanted):
     """Return the element's text once it has ``wanted`` in it."""
-    expect(locator).to_contain_text(wanted, timeout=waiting.within(seconds) * 1000)
+    expect(locator).to_contain_text(wanted)
     return locator.inner_text()
 
 

@@ -5,7 +5,6 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
 from tests.support.waiting import within
 
 from .. import helpers
@@ -70,12 +69,12 @@ def test_homing_is_marked_until_the_axes_are_homed(page, server, board, page_err
     view = show_view(page, "machine")
     board.board.execute("M84", channel="http")
     helpers.wait_value(server, "move.axes[].homed", lambda homed: not any(homed), SECONDS)
-    expect(part(page, "strip-state")).to_have_text("Idle", timeout=PATIENCE_MS)
+    expect(part(page, "strip-state")).to_have_text("Idle")
     board.board.speed = 2
     page.evaluate(AXES)
     place = part(view, "home-all").bounding_box()
     page.evaluate(MARK, ["#rrfmodel_machine [data-test=home-all]", True])
-    expect(part(page, "strip-state")).to_have_text(re.compile("Homing"), timeout=PATIENCE_MS)
+    expect(part(page, "strip-state")).to_have_text(re.compile("Homing"))
     assert part(view, "home-all").bounding_box() == place
     marks = wait_over(page, server)
     assert marks["marked"] < within(AT_ONCE_MS / 1000) * 1000
@@ -98,7 +97,7 @@ def test_a_number_shows_what_was_sent_until_the_machine_does(page, server, board
     heaters = helpers.value(server, "heat.heaters")
     assert 43 in [heater["active"] for heater in heaters if heater]
     type_number(field, 0)
-    expect(field).not_to_have_attribute("aria-busy", "true", timeout=PATIENCE_MS)
+    expect(field).not_to_have_attribute("aria-busy", "true")
 
 
 @pytest.mark.parametrize(
@@ -112,7 +111,7 @@ def test_what_the_machine_answers_is_told(page, server, board, code, said):
     show_view(page, "machine")
     told = page.locator(TOLD).filter(has_text=said)
     page.evaluate("(code) => { OctoPrint.coreui.viewmodels.rrfModelViewModel.script(code); }", code)
-    expect(told).to_have_count(1, timeout=PATIENCE_MS)
+    expect(told).to_have_count(1)
 
 
 def test_an_error_is_told_in_red(page, server, board):
@@ -121,7 +120,7 @@ def test_an_error_is_told_in_red(page, server, board):
         """() => { OctoPrint.coreui.viewmodels.rrfModelViewModel.script("M563 P77 D99"); }"""
     )
     told = page.locator(".ui-pnotify:visible .alert-error").filter(has_text="Error:")
-    expect(told).to_have_count(1, timeout=PATIENCE_MS)
+    expect(told).to_have_count(1)
     # where it lies on no button that stops something
     assert told.bounding_box()["y"] > 600
 
@@ -146,7 +145,7 @@ def test_a_job_that_is_to_end_says_so_at_once(page, server, board, action, says)
     board.board.execute('M32 "square.gcode"', channel="http")
     helpers.wait_value(server, "state.status", "processing", SECONDS)
     state = part(page, "strip-state")
-    expect(state).to_contain_text("Printing", timeout=PATIENCE_MS)
+    expect(state).to_contain_text("Printing")
     shown = page.evaluate(
         """(action) => {
             const core = OctoPrint.coreui.viewmodels.rrfModelViewModel;

@@ -3,8 +3,6 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import SECONDS, home, own_errors, part, show_view, unfold, wait_text
 from .test_everyone import serious
@@ -50,7 +48,7 @@ DELTA = {
 def bed(page):
     show_view(page, "machine")
     found = unfold(page.locator("#rrfmodel_machine_parts"), "bed")
-    expect(part(found, "bed-map")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(found, "bed-map")).to_be_visible()
     return found
 
 
@@ -76,17 +74,17 @@ def test_grid_head_and_how_even_it_is(bed, server, board, page_errors):
     expect(part(bed, "profile")).to_have_count(0)
     board.board.execute("G1 X120 Y80 F12000", channel="http")
     helpers.wait_value(server, "move.axes[0].machinePosition", 120, SECONDS)
-    expect(part(bed, "head")).to_have_attribute("cx", "120", timeout=PATIENCE_MS)
-    expect(part(bed, "head")).to_have_attribute("cy", "-80", timeout=PATIENCE_MS)
+    expect(part(bed, "head")).to_have_attribute("cx", "120")
+    expect(part(bed, "head")).to_have_attribute("cy", "-80")
     board.board.execute("G29 S1", channel="http")
-    expect(part(bed, "grid")).to_have_text("11 × 10 points, every 20 × 20 mm", timeout=PATIENCE_MS)
+    expect(part(bed, "grid")).to_have_text("11 × 10 points, every 20 × 20 mm")
     expect(part(bed, "reach")).to_have_text("±0.1 mm")
     # mean -0.012 and deviation 0.043 of a picture that reaches from -1 to 1
     band = part(bed, "profile").locator("rect")
     assert number(band, "y") == pytest.approx(-0.31)
     assert number(band, "height") == pytest.approx(0.86)
     board.board.execute("G29 S2", channel="http")
-    expect(part(bed, "profile")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(bed, "profile")).to_have_count(0)
     assert own_errors(page_errors) == []
 
 
@@ -114,9 +112,7 @@ def test_screws_of_the_bed(bed, board):
         )
 
     change(board, "move", correct)
-    expect(part(bed, "correction")).to_have_text(
-        ["+0.050 mm", "−0.120 mm", "+0.000 mm"], timeout=PATIENCE_MS
-    )
+    expect(part(bed, "correction")).to_have_text(["+0.050 mm", "−0.120 mm", "+0.000 mm"])
     expect(part(bed, "mark")).to_have_text(["1 +0.050 mm", "2 −0.120 mm", "3 +0.000 mm"])
     # those that stand beside the bed have their room
     left, _, width, _ = map(float, part(bed, "bed-map").get_attribute("viewBox").split())
@@ -138,7 +134,7 @@ def test_a_delta_has_a_round_bed_and_its_towers(page, bed, page_errors):
 
 def test_points_that_are_known_have_colours_and_a_profile(page, bed, server, board, page_errors):
     board.board.execute("G29 S1", channel="http")
-    expect(part(bed, "profile")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(bed, "profile")).to_be_visible()
     page.evaluate(
         "(map) => OctoPrint.coreui.viewmodels.rrfModelViewModel.heightmap(map)", HEIGHTMAP
     )
@@ -163,7 +159,7 @@ def test_points_that_are_known_have_colours_and_a_profile(page, bed, server, boa
     assert dots(bed) == 110
     # without a mesh in use there is none to look at
     board.board.execute("G29 S2", channel="http")
-    expect(cells).to_have_count(0, timeout=PATIENCE_MS)
+    expect(cells).to_have_count(0)
     page.evaluate("() => OctoPrint.coreui.viewmodels.rrfModelViewModel.heightmap(null)")
     assert own_errors(page_errors) == []
 
@@ -187,11 +183,11 @@ def test_they_are_asked_for_where_the_card_can_be_read(page, bed, board):
 
     page.route("**/plugin/rrfmodel/heightmap", answer)
     board.board.execute("G29 S1", channel="http")
-    expect(part(bed, "profile")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(bed, "profile")).to_be_visible()
     assert asked == []
     page.evaluate(NETWORK)
     expect(part(bed, "mesh-cell")).to_have_count(5)
     page.unroute("**/plugin/rrfmodel/heightmap")
     board.board.execute("G29 S2", channel="http")
-    expect(part(bed, "mesh-cell")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(bed, "mesh-cell")).to_have_count(0)
     page.evaluate("() => window.overNetwork()")

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import board_value, both_hosts, home, own_errors, part, wait_board, wait_text
@@ -35,7 +35,7 @@ def ask(board, parameters, channel="http"):
 
 
 def is_closed(server, board, box):
-    expect(box).to_be_hidden(timeout=PATIENCE_MS)
+    expect(box).to_be_hidden()
     server.wait_for(
         lambda: board_value(board, "state.messageBox") is None, 45, "the board to close its box"
     )
@@ -62,7 +62,7 @@ def test_mode_0_has_no_buttons_and_goes_by_itself(box, server, board):
     assert 1 <= int(re.findall(r"\d+", part(box, "box-time").inner_text())[0]) <= 300
     # its time is nearly over at once
     board.board.speed = 300
-    expect(box).to_be_hidden(timeout=PATIENCE_MS)
+    expect(box).to_be_hidden()
     assert is_closed(server, board, box)
 
 
@@ -168,7 +168,7 @@ def test_put_aside_and_answered_elsewhere(page, box, server, board):
     wait_text(part(box, "box-message"), "Look at it")
     part(box, "box-aside").click()
     board.board.execute("M292", channel="telnet")
-    expect(page.locator("[data-test=box-again]")).to_be_hidden(timeout=PATIENCE_MS)
+    expect(page.locator("[data-test=box-again]")).to_be_hidden()
     # the next one comes by itself
     ask(board, 'P"Another" S2')
     wait_text(part(box, "box-message"), "Another")

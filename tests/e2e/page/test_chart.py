@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, wait_usable
+from tests.support.browser import wait_usable
 
 from . import both_hosts, open_view, own_errors, part, show_view, styled, wait_text
 
@@ -63,9 +63,7 @@ def drawn_view(page):
 
 def wait_drawn(page, fits):
     """Return what is drawn once it is as wanted."""
-    page.wait_for_function(
-        "() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')", timeout=PATIENCE_MS
-    )
+    page.wait_for_function("() => $('#rrfmodel_chart .rrfmodel-plot').data('plot')")
     for _ in range(180):
         drawn = page.evaluate(DRAWN)
         if fits(drawn):
@@ -130,7 +128,7 @@ def test_what_the_server_keeps_no_longer_is_not_shown(page, view):
         }"""
     )
     assert shown == 1
-    expect(row(view, "heater9")).to_have_count(0, timeout=30_000)
+    expect(row(view, "heater9")).to_have_count(0)
     expect(row(view, "heater0")).to_have_count(1)
 
 
@@ -154,7 +152,7 @@ def test_chosen_series_are_kept(own_page, server):
     wait_drawn(page, lambda drawn: len(drawn) == shown)
     page.reload()
     wait_usable(page)
-    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked(timeout=PATIENCE_MS)
+    expect(part(row(view, "heater1"), "show-pwm")).to_be_checked()
     expect(part(row(view, "heater0"), "show-current")).not_to_be_checked()
     wait_drawn(page, lambda drawn: len(drawn) == shown)
 
@@ -255,6 +253,5 @@ def test_narrow(page, view):
                 const region = document.querySelector("#rrfmodel_chart");
                 return region.scrollWidth <= region.clientWidth;
             }""",
-            timeout=PATIENCE_MS,
         )
         assert page.evaluate(WIDTH) < 440

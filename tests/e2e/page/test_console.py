@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import User
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import TOLD, both_hosts, own_errors, part, show_view
@@ -31,13 +31,11 @@ def ask(page, code):
 def test_expressions_work_and_replies_have_their_time(page, server, page_errors):
     show_view(page, "console")
     ask(page, "echo {move.axes[0].machinePosition + 1000}")
-    expect(said(page, "echo {move.axes[0].machinePosition + 1000}")).to_have_count(
-        1, timeout=PATIENCE_MS
-    )
+    expect(said(page, "echo {move.axes[0].machinePosition + 1000}")).to_have_count(1)
     answer = page.locator(LINES).filter(
         has=page.locator("[data-test=console-text]").filter(has_text=re.compile(r"^1\d\d\d\.0+$"))
     )
-    expect(answer.first).to_have_text(re.compile(r"\d+:\d\d:\d\d"), timeout=PATIENCE_MS)
+    expect(answer.first).to_have_text(re.compile(r"\d+:\d\d:\d\d"))
     # which is no notification beside it
     assert page.locator(TOLD).count() == 0
     assert own_errors(page_errors) == []
@@ -47,7 +45,7 @@ def test_errors_are_red_and_the_filter_finds_them(page):
     show_view(page, "console")
     ask(page, 'M98 P"gone.g"')
     warned = page.locator(LINES + ".rrfmodel-warned").filter(has_text="gone.g not found")
-    expect(warned).to_have_count(1, timeout=PATIENCE_MS)
+    expect(warned).to_have_count(1)
     part(page, "console-filter").fill("gone.g not")
     expect(page.locator(LINES)).to_have_count(1)
     part(page, "console-filter").fill("")
@@ -59,7 +57,7 @@ def test_the_input_remembers(page):
     field = part(page, "console-input")
     for code in ('echo "one"', 'echo "two"'):
         ask(page, code)
-        expect(said(page, code).first).to_be_visible(timeout=PATIENCE_MS)
+        expect(said(page, code).first).to_be_visible()
     field.fill("half")
     field.press("ArrowUp")
     expect(field).to_have_value('echo "two"')
@@ -84,13 +82,13 @@ def test_what_was_said_while_it_was_hidden_is_there(page, server):
     helpers.wait_polls(server, 3)
     assert page.evaluate("window.changes") == 0
     show_view(page, "console")
-    expect(said(page, "while it was hidden").first).to_be_visible(timeout=PATIENCE_MS)
+    expect(said(page, "while it was hidden").first).to_be_visible()
 
 
 def test_a_reader_sees_and_does_not_send(reader_page, server):
     show_view(reader_page, "console")
     server.commands('M118 P0 S"for all to see"')
-    expect(said(reader_page, "for all to see").first).to_be_visible(timeout=PATIENCE_MS)
+    expect(said(reader_page, "for all to see").first).to_be_visible()
     expect(part(reader_page, "console-input")).to_be_disabled()
     expect(part(reader_page, "console-send")).to_be_disabled()
 

@@ -2,8 +2,6 @@
 
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import CONFIRM, both_hosts, home, part
 
@@ -48,6 +46,6 @@ def test_stops_what_is_printed_and_comes_back(page, server, board):
     # the way back is offered
     restarts_before = helpers.restarts(server)
     fix = part(page, "strip-fix")
-    fix.filter(has_text="Restart the machine").click(timeout=PATIENCE_MS)
+    fix.filter(has_text="Restart the machine").click()
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
     helpers.wait_restarted(server, restarts_before)

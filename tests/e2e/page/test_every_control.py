@@ -29,7 +29,6 @@ from .test_job import end_job
 
 BOARD = {"machine": "toolchanger", "speed": 60}
 
-MILLISECONDS = 30_000
 
 USABLE = """(region) => {
     const isSeen = (each) => each.offsetParent !== null || each.closest("svg");
@@ -75,7 +74,7 @@ SHOWN = "the page shows"
 
 
 def click(control):
-    control.click(timeout=MILLISECONDS)
+    control.click()
 
 
 def number(value):
@@ -95,9 +94,9 @@ def from_menu(menu):
                 "xpath=ancestor::*[contains(concat(' ', @class, ' '), ' btn-group ')]"
             )
             opener = group.locator(f"[data-test={menu}]")
-            expect(opener).to_be_enabled(timeout=MILLISECONDS)
+            expect(opener).to_be_enabled()
             opener.click()
-        control.click(timeout=MILLISECONDS)
+        control.click()
 
     return act
 
@@ -115,15 +114,15 @@ def then(first, mark, act=click):
 def read_again(control):
     """Click on what reads a folder of the card; what was read a moment ago isn't sent for again."""
     with control.page.expect_response(lambda answer: "/files" in answer.url and answer.ok):
-        control.click(timeout=MILLISECONDS)
+        control.click()
 
 
 def in_folder(control):
     """The same in a folder below, from which one gets back."""
     view = control.page.locator("#rrfmodel_machine")
     part(view, "macro-filter").fill("")
-    part(view, "macro").filter(has_text="More").click(timeout=MILLISECONDS)
-    expect(part(view, "macro-up")).to_be_visible(timeout=MILLISECONDS)
+    part(view, "macro").filter(has_text="More").click()
+    expect(part(view, "macro-up")).to_be_visible()
     read_again(control)
 
 
@@ -133,15 +132,15 @@ def seen(mark, count=None):
     def check(region):
         found = part(region, mark).locator("visible=true")
         if count is None:
-            expect(found.first).to_be_visible(timeout=MILLISECONDS)
+            expect(found.first).to_be_visible()
         else:
-            expect(found).to_have_count(count, timeout=MILLISECONDS)
+            expect(found).to_have_count(count)
 
     return check
 
 
 def at_the_top(region):
-    expect(part(region, "macro-up")).to_be_hidden(timeout=MILLISECONDS)
+    expect(part(region, "macro-up")).to_be_hidden()
     expect(part(region, "macro")).to_have_count(3)
 
 
@@ -226,7 +225,7 @@ CONSOLE = {
     "console-send": Use(
         lambda control: (
             part(control.page, "console-input").fill("M220 S100"),
-            control.click(timeout=MILLISECONDS),
+            control.click(),
         ),
         "move.speedFactor",
         1,
@@ -235,7 +234,7 @@ CONSOLE = {
     "console-clear": Use(
         lambda control: (
             part(control.page, "console-filter").fill(""),
-            control.click(timeout=MILLISECONDS),
+            control.click(),
         ),
         SHOWN,
         seen("console-line", 0),
@@ -244,16 +243,16 @@ CONSOLE = {
 
 
 def confirmed(control):
-    control.click(timeout=MILLISECONDS)
-    control.page.locator(CONFIRM).click(timeout=MILLISECONDS)
+    control.click()
+    control.page.locator(CONFIRM).click()
 
 
 def by_enter(control):
     """Objects of the simulated board lie one on the other, so that only one is hit by a pointer."""
     # the page knows a little later that the object is printed again
-    expect(control).to_have_attribute("aria-label", re.compile("Cancel"), timeout=MILLISECONDS)
+    expect(control).to_have_attribute("aria-label", re.compile("Cancel"))
     control.press("Enter")
-    control.page.locator(CONFIRM).click(timeout=MILLISECONDS)
+    control.page.locator(CONFIRM).click()
 
 
 ENTRY = "[data-test=card-entry]:has-text('{}')"
@@ -383,7 +382,7 @@ def use_one(page, region, server, board, mark, use):
     control = control.first if of_menu else control.locator("visible=true").first
     make_possible(server, board, use)
     if not of_menu:
-        expect(control).to_be_enabled(timeout=MILLISECONDS)
+        expect(control).to_be_enabled()
     sent_before = len(helpers.commands(board))
     wanted = use.wanted
     if isinstance(wanted, By):
@@ -431,7 +430,7 @@ def view(page, server, board):
 
 @both_hosts
 def test_machine(page, view, server, board, page_errors):
-    expect(part(view, "macro")).to_have_count(3, timeout=MILLISECONDS)
+    expect(part(view, "macro")).to_have_count(3)
     # nothing has to be heated for it
     board.board.execute("M302 S0 R0", channel="http")
     helpers.wait_value(server, "heat.coldExtrudeTemperature", 0, SECONDS)
@@ -444,7 +443,7 @@ def test_machine(page, view, server, board, page_errors):
 def test_sections_of_machine(page, view, server, board, page_errors):
     parts = page.locator("#rrfmodel_machine_parts")
     heads = parts.locator("[data-test^=fold-]:visible")
-    expect(heads.first).to_be_visible(timeout=MILLISECONDS)
+    expect(heads.first).to_be_visible()
     names = {head.get_attribute("data-test") for head in heads.all()}
     for name in names:
         part(parts, name).click()
@@ -478,7 +477,7 @@ def test_job_with_a_print(page, view, server, board, page_errors):
     helpers.wait_value(server, "job.build.objects", lambda found: found and len(found) > 1, SECONDS)
     try:
         region = show_view(page, "job")
-        expect(part(region, "object-cancel").first).to_be_visible(timeout=MILLISECONDS)
+        expect(part(region, "object-cancel").first).to_be_visible()
         usable = use_all(page, region, server, board, PRINT)
     finally:
         end_job(server, board)

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from octoprint_rrfmodel.simulator.device.sample import SAMPLE_FILES, SAMPLE_FOLDERS
 from tests.support.basedir import ADMIN, READER
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 from tests.support.places import ROOT
 
 from .. import helpers
@@ -119,7 +119,7 @@ def test_each_sub_view_has_its_address(own_page, server, page_errors):
     page.go_back()
     page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for()
     page.reload()
-    page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for(timeout=PATIENCE_MS)
+    page.locator("#rrfmodel_machine").locator("visible=true").first.wait_for()
     assert own_errors(page_errors) == []
 
 
@@ -148,7 +148,7 @@ def test_everything_can_be_reached_by_keyboard(page):
 def test_a_hidden_tab_costs_nothing(page, server, board):
     # what was asked for while it was seen has come
     macros = part(show_filled(page, "machine"), "macro")
-    expect(macros.first).to_be_enabled(timeout=PATIENCE_MS)
+    expect(macros.first).to_be_enabled()
     open_tab(page, "#term")
     page.evaluate("""() => {
         window.changes = [];
@@ -251,14 +251,14 @@ def test_no_english_word_is_among_the_german(own_page, server, board):
     english = english_alone("de") - names - {"octoprint", "echo"}
     assert {"home", "files"} <= english
     parts = page.locator("#rrfmodel_machine_parts")
-    expect(part(parts, "fold-boards")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(parts, "fold-boards")).to_be_visible()
     for head in parts.locator("[data-test^=fold-]:visible").all():
         head.click()
     found = {}
     for view in ("machine", "job", "chart", "console"):
         region = show_view(page, view)
         if view == "machine":
-            expect(part(region, "macro")).not_to_have_count(0, timeout=PATIENCE_MS)
+            expect(part(region, "macro")).not_to_have_count(0)
             assert region.evaluate(CROSSED) == []
         with styled(page, OF_THE_MACHINE):
             found[view] = words(page.evaluate(SAID, OWN)) & english

@@ -7,7 +7,6 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
 from . import (
@@ -112,7 +111,7 @@ def confirm(page):
 
 @both_hosts
 def test_tells_of_file_progress_and_times(view, server):
-    expect(part(view, "job-name")).to_have_text("parts/clip.gcode", timeout=PATIENCE_MS)
+    expect(part(view, "job-name")).to_have_text("parts/clip.gcode")
     wait_text(part(view, "status"), "Printing")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
     wait_text(part(view, "filament"), "1.50 m + 0.25 m")
@@ -124,7 +123,7 @@ def test_tells_of_file_progress_and_times(view, server):
         wait_text(part(view, name), "0:0")
     assert re.match(r"ends .*\d:\d\d.*, left 0:0\d:\d\d$", part(view, "job-ends").inner_text())
     before = part(view, "duration").inner_text()
-    expect(part(view, "duration")).not_to_have_text(before, timeout=PATIENCE_MS)
+    expect(part(view, "duration")).not_to_have_text(before)
     assert float(part(view, "progress").get_attribute("aria-valuenow")) >= 0
     wait_text(part(view, "job-percent"), "%")
 
@@ -133,9 +132,9 @@ def test_layers_as_a_chart(own_page, server, idle):
     page = own_page
     begin(server, idle)
     view = open_view(page, server, ADMIN, "job")
-    part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
+    part(view, "layers").wait_for(state="visible")
     drawn = """() => $("#rrfmodel_job .rrfmodel-plot").data("plot").getData()[0].data"""
-    page.wait_for_function(f"() => ({drawn})().length >= 3", timeout=PATIENCE_MS)
+    page.wait_for_function(f"() => ({drawn})().length >= 3")
     layers = page.evaluate(drawn)
     assert [layer for layer, _ in layers] == list(range(1, len(layers) + 1))
     # the first one may have begun with the file's head
@@ -154,8 +153,8 @@ def test_layers_as_a_chart(own_page, server, idle):
     page.mouse.move(left, top)
     wait_text(part(view, "layer-facts"), "Layer 1:")
     page.reload()
-    part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
-    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}", timeout=PATIENCE_MS)
+    part(view, "layers").wait_for(state="visible")
+    page.wait_for_function(f"() => ({drawn})().length >= {len(layers)}")
 
 
 @both_hosts
@@ -176,7 +175,7 @@ def test_pause_resume_and_cancel(page, view, server, board, page_errors):
     part(view, "cancel").click()
     confirm(page)
     server.wait_for(lambda: not board.board.job.is_printing, 45, "the job to end")
-    expect(part(view, "pause")).to_be_hidden(timeout=PATIENCE_MS)
+    expect(part(view, "pause")).to_be_hidden()
     assert own_errors(page_errors) == []
 
 
@@ -196,7 +195,7 @@ def test_another_print_is_not_cancelled_by_the_question_about_the_last(page, vie
 
 def test_objects(page, view, server, board):
     objects = part(view, "object")
-    expect(objects).to_have_count(2, timeout=PATIENCE_MS)
+    expect(objects).to_have_count(2)
     expect(part(objects, "name")).to_have_text(list(NAMES))
     expect(objects.nth(0)).to_have_attribute("title", re.compile("X 80…120"))
     part(objects.nth(1), "object-cancel").click()
@@ -208,7 +207,7 @@ def test_objects(page, view, server, board):
     wait_text(part(objects.nth(1), "state"), "cancelled")
     part(objects.nth(1), "object-resume").click()
     wait_board(server, board, "job.build.objects[1].cancelled", False)
-    expect(part(objects.nth(1), "object-cancel")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(objects.nth(1), "object-cancel")).to_be_visible()
     # and by the map of the bed
     map_of = part(view, "map-object")
     expect(map_of).to_have_count(2)
@@ -217,7 +216,7 @@ def test_objects(page, view, server, board):
     expect(page.locator(".modal.in h3")).to_have_text(f"Cancel object {NAMES[0]}?")
     confirm(page)
     wait_board(server, board, "job.build.objects[0].cancelled", True)
-    expect(part(objects.nth(0), "state")).to_have_text("cancelled", timeout=PATIENCE_MS)
+    expect(part(objects.nth(0), "state")).to_have_text("cancelled")
     map_of.nth(0).press("Enter")
     wait_board(server, board, "job.build.objects[0].cancelled", False)
 
@@ -244,13 +243,13 @@ def test_last_job_is_started_again_and_simulated(page, server, idle):
     confirm(page)
     server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
     assert idle.board.job.path == "0:/gcodes/parts/clip.gcode"
-    expect(part(view, "last")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(view, "last")).to_have_count(0)
     reach_its_end(server, idle)
-    part(view, "simulate-last").click(timeout=PATIENCE_MS)
+    part(view, "simulate-last").click()
     server.wait_for(lambda: idle.board.job.is_simulation, 45, "the simulation")
     # and it is told as one, with its result
     helpers.wait_value(server, "job.lastFileName", "0:/gcodes/parts/clip.gcode", 45)
-    expect(part(view, "last-simulated")).to_be_visible(timeout=30_000)
+    expect(part(view, "last-simulated")).to_be_visible()
     expect(part(view, "last")).to_contain_text("Time by simulation")
     expect(part(view, "last")).not_to_contain_text("warming up")
 
@@ -269,14 +268,14 @@ def select(board):
 def test_nothing_is_started_without_the_motors_supply(page, server, idle, name, bring):
     bring(server, idle)
     view = show_view(page, "job")
-    expect(part(view, name)).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, name)).to_be_visible()
     idle.board.inject("vin_off")
     try:
-        expect(part(view, name)).to_be_disabled(timeout=PATIENCE_MS)
+        expect(part(view, name)).to_be_disabled()
         expect(part(view, name)).to_have_attribute("title", re.compile("no supply voltage"))
     finally:
         idle.board.clear("vin_off")
-    expect(part(view, name)).to_be_enabled(timeout=PATIENCE_MS)
+    expect(part(view, name)).to_be_enabled()
 
 
 def test_selected_file_is_started(page, server, idle):
@@ -284,13 +283,13 @@ def test_selected_file_is_started(page, server, idle):
     view = show_view(page, "job")
     wait_text(part(view, "job-name"), "parts/clip.gcode")
     wait_text(part(view, "slicer"), "PrusaSlicer 2.8.1")
-    expect(part(view, "picture")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, "picture")).to_be_visible()
     # nothing of it has been printed
     expect(part(view, "last")).to_have_count(0)
     part(view, "start").click()
     confirm(page)
     server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
-    expect(part(view, "start")).to_be_hidden(timeout=PATIENCE_MS)
+    expect(part(view, "start")).to_be_hidden()
 
 
 def test_a_cancelled_print_is_started_again(page, server, idle):
@@ -298,8 +297,8 @@ def test_a_cancelled_print_is_started_again(page, server, idle):
     end_job(server, idle)
     view = show_view(page, "job")
     wait_text(part(view, "job-name"), "parts/clip.gcode")
-    expect(part(view, "last")).to_have_count(0, timeout=PATIENCE_MS)
-    part(view, "start").click(timeout=PATIENCE_MS)
+    expect(part(view, "last")).to_have_count(0)
+    part(view, "start").click()
     confirm(page)
     server.wait_for(lambda: idle.board.job.is_running, 45, "the job to begin")
     assert idle.board.job.path == "0:/gcodes/parts/clip.gcode"
@@ -309,7 +308,7 @@ def test_picture(page, server, idle, page_errors):
     begin(server, idle)
     view = show_view(page, "job")
     picture = part(view, "picture")
-    expect(picture).to_be_visible(timeout=PATIENCE_MS)
+    expect(picture).to_be_visible()
     assert picture.evaluate("image => [image.naturalWidth, image.naturalHeight]") == [16, 16]
     assert own_errors(page_errors) == []
 
@@ -327,7 +326,7 @@ def test_text_of_the_printer_is_text(page, server, idle, page_errors):
     idle.board.card.write("0:/gcodes/odd <b>&amp.gcode", printed(40, (MARKUP, "<b>")))
     begin(server, idle, "0:/gcodes/odd <b>&amp.gcode")
     view = show_view(page, "job")
-    expect(part(view, "job-name")).to_have_text("odd <b>&amp.gcode", timeout=PATIENCE_MS)
+    expect(part(view, "job-name")).to_have_text("odd <b>&amp.gcode")
     wait_text(part(view, "object").nth(0), MARKUP)
     assert view.locator("img:visible:not([data-test=picture]), b").count() == 0
     part(view.locator("[data-test=object]").nth(0), "object-cancel").click()
@@ -343,7 +342,7 @@ def test_a_reader_sees_and_can_do_nothing(reader_page, server, idle, page_errors
     wait_text(part(view, "job-name"), "clip.gcode")
     for name in ("pause", "cancel"):
         expect(part(view, name)).to_be_disabled()
-    expect(part(view, "object-cancel").first).to_be_disabled(timeout=PATIENCE_MS)
+    expect(part(view, "object-cancel").first).to_be_disabled()
     assert idle.board.job.is_running
     assert own_errors(page_errors) == []
 
@@ -355,9 +354,7 @@ def test_a_refusal_is_told(page, view, server, board):
         lambda route: route.fulfill(status=409, json={"error": "The machine has no job."}),
     )
     part(view, "pause").click()
-    expect(page.locator(".ui-pnotify-text").last).to_contain_text(
-        "The machine has no job.", timeout=PATIENCE_MS
-    )
+    expect(page.locator(".ui-pnotify-text").last).to_contain_text("The machine has no job.")
 
 
 def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle):
@@ -385,13 +382,12 @@ def test_a_picture_that_was_refused_is_asked_for_again(fresh_page, server, idle)
 def test_narrow(page, view):
     page.set_viewport_size({"width": 480, "height": 900})
     with styled(page, "#rrfmodel_job { width: 440px; }"):
-        part(view, "layers").wait_for(state="visible", timeout=PATIENCE_MS)
+        part(view, "layers").wait_for(state="visible")
         # the drawing follows the width a little later
         page.wait_for_function(
             """() => {
                 const region = document.querySelector("#rrfmodel_job");
                 return region.scrollWidth <= region.clientWidth;
             }""",
-            timeout=PATIENCE_MS,
         )
         expect(part(view, "pause")).to_be_visible()

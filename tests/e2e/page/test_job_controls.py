@@ -3,8 +3,6 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import CONFIRM, SECONDS, own_errors, part, show_view, type_number, wait_board
 from .test_job import end_job
@@ -70,9 +68,9 @@ TURNED = [
 
 def test_what_is_turned_during_a_print(page, server, board, printing, page_errors):
     view = show_view(page, "job")
-    expect(part(view, "speed-factor")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, "speed-factor")).to_be_visible()
     # a step goes from what is shown
-    expect(part(part(view, "tool").first, "turned")).to_have_value("200", timeout=PATIENCE_MS)
+    expect(part(part(view, "tool").first, "turned")).to_have_value("200")
     for name, button, key, value in TURNED:
         part(part(view, name).first, button).click()
         wait_board(server, board, key, lambda found, value=value: abs(found - value) < 1e-6)
@@ -81,7 +79,7 @@ def test_what_is_turned_during_a_print(page, server, board, printing, page_error
     baby = part(view, "babystep")
     part(baby, "babystep-by").nth(3).click()
     wait_board(server, board, "move.axes[2].babystep", 0.05)
-    expect(part(baby, "babystep-value")).to_have_text("0.050 mm", timeout=PATIENCE_MS)
+    expect(part(baby, "babystep-value")).to_have_text("0.050 mm")
     part(baby, "babystep-clear").click()
     wait_board(server, board, "move.axes[2].babystep", 0)
     for line in ("M221 D0 S100", "M106 P0 S0", "M140 S0"):
@@ -107,16 +105,16 @@ UNKNOWN = """() => {
 
 def test_a_step_from_what_is_not_known_is_not_offered(page, server, board, printing):
     view = show_view(page, "job")
-    expect(part(part(view, "speed-factor"), "more")).to_be_enabled(timeout=PATIENCE_MS)
+    expect(part(part(view, "speed-factor"), "more")).to_be_enabled()
     assert page.evaluate(UNKNOWN) == [True, True]
-    expect(part(part(view, "speed-factor"), "more")).to_be_enabled(timeout=PATIENCE_MS)
+    expect(part(part(view, "speed-factor"), "more")).to_be_enabled()
 
 
 def test_a_click_is_answered_at_once(page, server, board, printing):
     view = show_view(page, "job")
     for name, text in (("pause", "Pausing …"), ("cancel", "Cancelling …")):
         button = part(view, name)
-        expect(button).to_be_enabled(timeout=PATIENCE_MS)
+        expect(button).to_be_enabled()
         if name == "cancel":
             button.click()
             page.locator(CONFIRM).wait_for()
@@ -126,14 +124,14 @@ def test_a_click_is_answered_at_once(page, server, board, printing):
         )
         assert clicked == {"busy": "true", "disabled": True, "title": text, "status": text}
         if name == "pause":
-            expect(button).not_to_have_attribute("aria-busy", "true", timeout=PATIENCE_MS)
-            expect(part(view, "status")).to_have_text("Paused", timeout=PATIENCE_MS)
+            expect(button).not_to_have_attribute("aria-busy", "true")
+            expect(part(view, "status")).to_have_text("Paused")
             expect(button).to_have_attribute("title", "The print is paused.")
-    expect(part(view, "cancel")).to_be_hidden(timeout=PATIENCE_MS)
+    expect(part(view, "cancel")).to_be_hidden()
 
 
 def test_who_may_only_look_turns_nothing(reader_page, printing):
     view = show_view(reader_page, "job")
-    expect(part(view, "speed-factor")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, "speed-factor")).to_be_visible()
     for name in ("more", "less", "turned", "babystep-by"):
         expect(part(view, name).first).to_be_disabled()

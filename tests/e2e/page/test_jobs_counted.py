@@ -30,8 +30,6 @@ BOARD = {"machine": "cartesian", "speed": 10}
 
 FILE = "0:/gcodes/counted.gcode"
 
-MILLISECONDS = 30_000
-
 
 class Hand:
     """What a person does at the page, counted."""
@@ -42,12 +40,12 @@ class Hand:
 
     def click(self, control, **more):
         """Click on what is seen; to bring it into sight is a step as well."""
-        expect(control).to_be_visible(timeout=MILLISECONDS)
-        expect(control).to_be_enabled(timeout=MILLISECONDS)
+        expect(control).to_be_visible()
+        expect(control).to_be_enabled()
         box = waiting.wait_for(control.bounding_box, SECONDS, "its place")
         if box["y"] < 0 or box["y"] + box["height"] > self.page.viewport_size["height"]:
             self.steps += 1
-        control.click(timeout=MILLISECONDS, **more)
+        control.click(**more)
         self.steps += 1
 
     def type(self, control, text):
@@ -104,8 +102,8 @@ def filament(hand):
 
 def layer(hand):
     hand.click(part(hand.page, "view-job"))
-    expect(part(job(hand), "layer")).to_contain_text(re.compile(r"\d+ / \d+"), timeout=MILLISECONDS)
-    expect(part(job(hand), "job-ends")).to_contain_text("left", timeout=MILLISECONDS)
+    expect(part(job(hand), "layer")).to_contain_text(re.compile(r"\d+ / \d+"))
+    expect(part(job(hand), "job-ends")).to_contain_text("left")
 
 
 def pause(hand):
@@ -231,7 +229,7 @@ def test_beside_an_idle_machine(page, server, board, page_errors):
     board.board.execute("T-1", channel="http")
     helpers.wait_value(server, "state.currentTool", -1, SECONDS)
     view = show_view(page, "machine")
-    expect(part(view, "macro")).not_to_have_count(0, timeout=MILLISECONDS)
+    expect(part(view, "macro")).not_to_have_count(0)
     found = {}
     for job in IDLE:
         page.evaluate("window.scrollTo(0, 0)")

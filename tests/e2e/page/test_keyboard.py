@@ -13,8 +13,6 @@ FILE = "0:/gcodes/by_keyboard.gcode"
 FAR = 400
 """Stops of the whole page of OctoPrint, at most."""
 
-MILLISECONDS = 30_000
-
 
 def prepare(board):
     board.card.write(FILE, "G4 S2\n" * 300)
@@ -25,7 +23,7 @@ HAS_FOCUS = "(each) => each === document.activeElement"
 
 def walk_to(locator, key="Tab"):
     """Press a key until the element has the focus."""
-    expect(locator).to_be_enabled(timeout=MILLISECONDS)
+    expect(locator).to_be_enabled()
     page = locator.page
     for _stop in range(FAR):
         if locator.evaluate(HAS_FOCUS):
@@ -57,11 +55,11 @@ def test_homes_heats_answers_and_pauses(page, server, board, page_errors):
 
     board.board.execute('M291 P"Is it clear?" S3', channel="http")
     box = page.locator("#rrfmodel_box_dialog")
-    expect(part(box, "box-ok")).to_be_enabled(timeout=MILLISECONDS)
+    expect(part(box, "box-ok")).to_be_enabled()
     walk_to(part(box, "box-ok"))
     page.keyboard.press("Enter")
     wait_board(server, board, "state.messageBox", None)
-    expect(box).to_be_hidden(timeout=MILLISECONDS)
+    expect(box).to_be_hidden()
 
     board.board.execute(f'M32 "{FILE}"', channel="http")
     try:
@@ -72,7 +70,7 @@ def test_homes_heats_answers_and_pauses(page, server, board, page_errors):
         wait_board(server, board, "state.status", "paused")
         walk_to(part(page.locator("#rrfmodel_job"), "cancel"))
         page.keyboard.press("Enter")
-        expect(page.locator(".modal.in")).to_be_visible(timeout=MILLISECONDS)
+        expect(page.locator(".modal.in")).to_be_visible()
         walk_to(page.locator(".modal.in .modal-footer .btn-danger"))
         page.keyboard.press("Enter")
         wait_board(server, board, "state.status", "idle")

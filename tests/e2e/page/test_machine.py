@@ -6,8 +6,6 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import (
     SECONDS,
@@ -103,7 +101,7 @@ def test_temperatures_of_octoprint_are_offered(page, view, server, board, page_e
 def test_the_last_ten_minutes_are_a_curve(view, server, board):
     board.board.execute("M568 P1 S200 A2", channel="http")
     curve = part(heat_row(view, 1, tool=1), "curve")
-    expect(curve).to_have_attribute("d", re.compile(r"^M[\d.]+ [\d.]+L"), timeout=PATIENCE_MS)
+    expect(curve).to_have_attribute("d", re.compile(r"^M[\d.]+ [\d.]+L"))
 
 
 DAILY = ("heat-row", "home-all", "axis-row", "extrude", "fan", "speed-factor", "babystep", "macro")
@@ -123,7 +121,7 @@ def test_five_tools_need_no_scrolling(page, view, server, board, page_errors):
         move["extruders"].append(copy.deepcopy(move["extruders"][0]))
         board.board.bump("heat", "tools", "move")
     try:
-        expect(part(view, "heat-row")).to_have_count(6, timeout=PATIENCE_MS)
+        expect(part(view, "heat-row")).to_have_count(6)
         expect(part(view, "macro")).not_to_have_count(0)
         page.evaluate("window.scrollTo(0, 0)")
         tab = page.locator("#tab_plugin_rrfmodel").bounding_box()
@@ -175,7 +173,7 @@ def by(row, distance):
 
 def test_what_is_typed_stays_until_it_is_sent_or_given_up(view, server, board):
     field = part(heat_row(view, 1, tool=1), "standby")
-    expect(field).not_to_have_value("", timeout=PATIENCE_MS)
+    expect(field).not_to_have_value("")
     before = field.input_value()
     field.fill("99")
     board.board.execute("M568 P3 S31", channel="http")
@@ -238,7 +236,7 @@ def test_selecting_feeding_and_putting_down(view, server, board, page_errors):
     row = heat_row(view, 1, tool=1)
     part(row, "select").click()
     wait_board(server, board, "state.currentTool", 1, 45)
-    expect(part(row, "select")).to_have_attribute("aria-pressed", "true", timeout=PATIENCE_MS)
+    expect(part(row, "select")).to_have_attribute("aria-pressed", "true")
     board.board.execute("M568 P1 S210 A2", channel="http")
     helpers.wait_value(server, "heat.heaters[1].current", lambda now: now > 200, 90)
     before = board_value(board, "move.extruders[0].position")
@@ -296,7 +294,7 @@ def test_heater_fault_is_reset(page, view, server, board):
     expect(page.locator("[data-test=box]")).to_be_hidden()
     part(row, "reset-fault").click()
     wait_board(server, board, "heat.heaters[2].state", "off")
-    expect(part(row, "alarm")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(row, "alarm")).to_have_count(0)
 
 
 def test_text_of_the_printer_is_text(view, server, board, page_errors):
@@ -395,5 +393,5 @@ def test_refusals_are_told(page, view, server, board):
     part(axis(view, "X"), "plus").click()
     # the plugin's words, or the firmware's where it was the one to decide
     expect(page.locator(".ui-pnotify-text").last).to_contain_text(
-        re.compile("Home these axes first: X|insufficient axes homed"), timeout=PATIENCE_MS
+        re.compile("Home these axes first: X|insufficient axes homed")
     )

@@ -5,8 +5,6 @@ import json
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import (
     CONFIRM,
@@ -49,7 +47,7 @@ def test_what_there_is_to_see(view, board, page_errors):
     data = board.board.data
     sensors = unfold(view, "sensors")
     endstops = [found for found in data["sensors"]["endstops"] if found]
-    expect(part(sensors, "endstop")).to_have_count(len(endstops), timeout=PATIENCE_MS)
+    expect(part(sensors, "endstop")).to_have_count(len(endstops))
     probes = [found for found in data["sensors"]["probes"] if found]
     expect(part(unfold(view, "bed"), "probe")).to_have_count(len(probes))
     # those of the heaters are told in their rows
@@ -84,7 +82,7 @@ def test_sections_tell_the_point_and_stay_as_they_were_left(page, view, server):
 
 def choose(view, menu, name):
     """Pick from a menu once it can be."""
-    expect(part(view, menu)).to_be_enabled(timeout=PATIENCE_MS)
+    expect(part(view, menu)).to_be_enabled()
     part(view, menu).click()
     part(view, name).click()
 
@@ -116,7 +114,7 @@ def sent(server):
 def test_macros(above, server, board, page_errors):
     """They are there without a click, and the one that is looked for is found."""
     macros = part(above, "macro")
-    expect(macros).to_have_text([" <u>More", " Ask first", " Say hello"], timeout=PATIENCE_MS)
+    expect(macros).to_have_text([" <u>More", " Ask first", " Say hello"])
     part(above, "macro-filter").fill("HELL")
     expect(macros).to_have_text([" Say hello"])
     expect(macros).to_be_enabled()
@@ -128,7 +126,7 @@ def test_macros(above, server, board, page_errors):
 
 
 def test_macros_in_a_folder(above, server, page_errors):
-    expect(part(above, "macro")).to_have_count(3, timeout=PATIENCE_MS)
+    expect(part(above, "macro")).to_have_count(3)
     expect(part(above, "macro-up")).to_be_hidden()
     part(above, "macro").first.click()
     wait_text(part(above, "macro-path"), "0:/macros/<u>More")
@@ -142,7 +140,7 @@ def test_macros_in_a_folder(above, server, page_errors):
 
 
 def test_a_double_click_on_a_folder_runs_no_macro(above, server):
-    expect(part(above, "macro")).to_have_count(3, timeout=PATIENCE_MS)
+    expect(part(above, "macro")).to_have_count(3)
     before = len(sent(server))
     # the folder's content is known, so that it comes at once
     part(above, "macro").first.click()
@@ -179,7 +177,7 @@ LISTED = """() => {
 
 
 def test_the_card_is_not_asked_while_the_line_has_something_to_do(page, above):
-    expect(part(above, "macro")).to_have_count(3, timeout=PATIENCE_MS)
+    expect(part(above, "macro")).to_have_count(3)
     assert page.evaluate(LISTED) == [0, ["0:/macros"]]
 
 
@@ -243,7 +241,7 @@ def test_power(page, view, server, board):
     wait_board(server, board, "state.atxPower", False)
     board.board.data["state"].update(atxPower=None, atxPowerPort=None)
     board.board.bump("state")
-    expect(part(view, "power")).to_be_hidden(timeout=PATIENCE_MS)
+    expect(part(view, "power")).to_be_hidden()
 
 
 def test_board_of_another_version(view, board):
@@ -256,7 +254,7 @@ def test_board_of_another_version(view, board):
         with board.board.lock:
             boards[count:] = [{**boards[0], "firmwareVersion": version, "canAddress": 20}]
             board.board.bump("boards")
-        expect(part(view, "board")).to_have_count(count + 1, timeout=PATIENCE_MS)
+        expect(part(view, "board")).to_have_count(count + 1)
         wait_text(part(view, "board").last, version)
 
     try:
@@ -270,7 +268,7 @@ def test_board_of_another_version(view, board):
         with board.board.lock:
             del boards[count:]
             board.board.bump("boards")
-    expect(part(view, "board")).to_have_count(count, timeout=PATIENCE_MS)
+    expect(part(view, "board")).to_have_count(count)
 
 
 def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):
@@ -305,7 +303,7 @@ def test_how_it_moves_and_what_its_pins_read(view, server, board, page_errors):
 
 def test_who_may_only_read_can_only_look(reader_page):
     view = show_view(reader_page, "machine")
-    expect(part(view, "macro")).to_have_count(3, timeout=PATIENCE_MS)
+    expect(part(view, "macro")).to_have_count(3)
     part(view, "macro").first.click()
     wait_text(part(view, "macro-path"), "More")
     looking = {"macros", "macro-up", "macro-filter"}

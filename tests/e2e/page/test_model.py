@@ -3,8 +3,6 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from . import both_hosts, own_errors, part, show_view, wait_text
 
 MARKUP = "<img src=x onerror=alert(1)>"
@@ -89,7 +87,7 @@ def test_value_with_unit_and_meaning(view, board):
     wait_text(found, "Temperature now")
     found.click()
     wait_text(part(view, "meaning"), "Temperature now")
-    expect(part(view, "detail-value")).to_contain_text("°C", timeout=PATIENCE_MS)
+    expect(part(view, "detail-value")).to_contain_text("°C")
 
 
 def test_follows_by_push_and_lights_up(page, view, board):
@@ -136,7 +134,7 @@ def test_only_changed(view, board):
     expect(row(view, "displayMessage", 2)).to_have_count(0)
     find(view, "")
     # the clock goes on
-    expect(row(view, "upTime", 2)).to_be_visible(timeout=PATIENCE_MS)
+    expect(row(view, "upTime", 2)).to_be_visible()
 
 
 def test_only_live(view):
@@ -196,7 +194,7 @@ def test_a_selected_value_that_goes_away_is_no_longer_told_of(view, board):
     with board.board.lock:
         del board.board.data["global"]["soon"]
         board.board.bump("global")
-    expect(path(view)).to_have_count(0, timeout=PATIENCE_MS)
+    expect(path(view)).to_have_count(0)
 
 
 def test_hidden_it_does_nothing(page, view, board):

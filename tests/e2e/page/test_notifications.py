@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import SECONDS, TOLD, both_hosts, own_errors, part, show_terminal
@@ -32,17 +32,17 @@ def test_why_a_print_is_paused_is_told_once(page, told, server, board, page_erro
     server.wait_state("Paused", 40)
     about = told.filter(has_text="Heater E0 reports a fault")
     # one that is replaced by the next is seen for a moment more
-    expect(about).to_have_text([re.compile("The print was paused.")], timeout=PATIENCE_MS)
+    expect(about).to_have_text([re.compile("The print was paused.")])
     helpers.wait_polls(server, 3)
     expect(about).to_have_count(1)
     # without a print it is the heater's fault alone
     server.post("/api/job", json={"command": "cancel"})
     server.wait_state("Operational", 60)
-    expect(told.filter(has_text="paused")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(told.filter(has_text="paused")).to_have_count(0)
     expect(about).to_have_count(1)
     board.board.clear("heater_fault")
     board.board.execute("M562 P1", channel="http")
-    expect(about).to_have_count(0, timeout=PATIENCE_MS)
+    expect(about).to_have_count(0)
     assert own_errors(page_errors) == []
 
 
@@ -52,10 +52,10 @@ def test_row_26_display_text_is_in_the_sidebar_and_no_notification(page, told, s
     # as layers of a print are told, also by DisplayLayerProgress
     for layer in range(1, 5):
         board.board.execute(f'M117 "Layer {layer} <b>"', channel="http")
-        expect(shown).to_have_text(f"Layer {layer} <b>", timeout=PATIENCE_MS)
+        expect(shown).to_have_text(f"Layer {layer} <b>")
         expect(told.filter(has_text="Layer")).to_have_count(0)
     board.board.execute('M117 ""', channel="http")
-    expect(shown).to_have_count(0, timeout=PATIENCE_MS)
+    expect(shown).to_have_count(0)
     page.wait_for_function("(kept) => PNotify.notices.length <= kept", arg=kept)
 
 
@@ -63,11 +63,11 @@ def test_row_26_display_text_is_in_the_sidebar_and_no_notification(page, told, s
 def test_a_refusal_comes_in_the_language_of_the_page(own_page, server):
     page = own_page
     open_octoprint(page, server, ADMIN, "/?l10n=de")
-    part(page, "status").first.wait_for(timeout=PATIENCE_MS)
+    part(page, "status").first.wait_for()
     response = server.post("/api/printer/printhead", json={"command": "jog", "x": 5})
     assert response.status_code == 204
     told = page.locator(TOLD)
-    expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1, timeout=PATIENCE_MS)
+    expect(told.filter(has_text="Nichts wurde bewegt")).to_have_count(1)
 
 
 @pytest.fixture
@@ -84,6 +84,6 @@ def test_a_box_that_nobody_can_answer_is_told(page, told, server, with_macro):
     show_terminal(page)
     server.commands('M98 P"0:/macros/ask.g"')
     about = told.filter(has_text="does not take over USB")
-    expect(about).to_have_count(1, timeout=PATIENCE_MS)
+    expect(about).to_have_count(1)
     helpers.disconnect(server)
-    expect(about).to_have_count(0, timeout=PATIENCE_MS)
+    expect(about).to_have_count(0)

@@ -54,18 +54,18 @@ def axis(view, letter):
 @both_hosts
 def test_homing_is_said_from_its_beginning_to_its_end(page, view, server, page_errors):
     for place in PLACES:
-        expect(page.locator(place)).to_have_text("Idle", timeout=30_000)
+        expect(page.locator(place)).to_have_text("Idle")
     page.evaluate(WATCH, list(PLACES))
     part(view, "home-all").click()
     for place in PLACES:
-        expect(page.locator(place)).to_have_text(re.compile(r"Homing, [5-9] s"), timeout=20_000)
+        expect(page.locator(place)).to_have_text(re.compile(r"Homing, [5-9] s"))
     position = part(axis(view, "X"), "position")
     expect(position).to_have_class(OLD)
     expect(position).to_have_attribute("title", AGE)
     text = page.locator("body").inner_text()
     assert not [words for words in CONTRADICTIONS if words in text]
     for place in PLACES:
-        expect(page.locator(place)).to_have_text("Idle", timeout=SECONDS * 1000)
+        expect(page.locator(place)).to_have_text("Idle")
     expect(position).not_to_have_class(OLD)
     for place, said in page.evaluate("window.watching.disconnect(), window.said").items():
         # nothing but that, and never back to the old state in between
@@ -88,9 +88,9 @@ def test_a_message_that_an_answer_overtakes_is_not_lost(page, view, server, page
     try:
         # the page asks for the state behind each of its commands
         part(view, "speed-more").click()
-        wait_text(part(view, "speed-factor"), "105 %", 20)
+        wait_text(part(view, "speed-factor"), "105 %")
         part(view, "speed-less").click()
-        wait_text(part(view, "speed-factor"), "100 %", 20)
+        wait_text(part(view, "speed-factor"), "100 %")
     finally:
         page.unroute_all(behavior="ignoreErrors")
     assert own_errors(page_errors) == []
@@ -101,9 +101,7 @@ def test_temperatures_that_the_line_tells_are_news(page, view, server, board):
     current = part(bed, "current")
     begun = float(current.inner_text())
     server.commands("M190 S45")
-    expect(page.locator(PLACES[1])).to_have_text(
-        re.compile(r"Heating the bed, \d+ s"), timeout=30_000
-    )
+    expect(page.locator(PLACES[1])).to_have_text(re.compile(r"Heating the bed, \d+ s"))
     server.wait_for(lambda: helpers.status(server)["stale"], SECONDS, "an old model")
     server.wait_for(lambda: float(current.inner_text()) > begun + 1, SECONDS, "a warmer bed")
     # of what the line tells nothing is old
@@ -237,7 +235,7 @@ def test_a_shared_heater_is_the_tools_that_is_selected(page, view, server, board
     helpers.wait_value(server, "state.currentTool", 0, SECONDS)
     heater = helpers.value(server, "tools[0].heaters[0]")
     own, copy = (heat_row(view, heater, tool) for tool in (0, 2))
-    expect(part(own, "tool-active")).to_have_attribute("aria-pressed", "true", timeout=30_000)
+    expect(part(own, "tool-active")).to_have_attribute("aria-pressed", "true")
     assert helpers.value(server, "tools[2].state") == "off"
     expect(part(copy, "tool-active")).to_have_attribute("aria-pressed", "false")
     expect(part(copy, "tool-off")).to_have_attribute("aria-pressed", "true")

@@ -14,7 +14,6 @@ BOARD = {"machine": "cartesian", "firmware": "2.05"}
 
 FILE = "0:/gcodes/square.gcode"
 
-MILLISECONDS = 45_000
 
 EMPTY = """() => Array.from(document.querySelectorAll("#rrfmodel_machine_parts section")).filter(
     (section) => section.offsetHeight && !section.innerText.replace(
@@ -33,17 +32,17 @@ def test_its_own_print_is_shown(page, server, board, page_errors):
     board.board.execute(f'M32 "{FILE}"', channel="http")
     helpers.wait_value(server, "state.status", "processing", SECONDS)
     view = show_view(page, "job")
-    expect(part(view, "job-name")).to_have_text("square.gcode", timeout=MILLISECONDS)
+    expect(part(view, "job-name")).to_have_text("square.gcode")
     expect(part(view, "no-file")).to_be_hidden()
     expect(part(view, "status")).to_have_text(re.compile("Printing from its card|Heating|Homing"))
     board.board.speed = 20
-    expect(part(view, "job-percent")).to_have_text(re.compile(r"[1-9]"), timeout=MILLISECONDS)
+    expect(part(view, "job-percent")).to_have_text(re.compile(r"[1-9]"))
     assert own_errors(page_errors) == []
 
 
 def test_what_it_does_not_tell_is_not_there(page):
     view = page.locator("#rrfmodel_machine_parts")
-    view.locator("visible=true").first.wait_for(timeout=MILLISECONDS)
+    view.locator("visible=true").first.wait_for()
     for name in ("macros", "filaments"):
         expect(part(page.locator("#rrfmodel_machine"), name)).to_be_hidden()
     for head in view.locator("[data-test^=fold-]:visible").all():

@@ -3,8 +3,6 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import (
     CONFIRM,
@@ -75,7 +73,7 @@ def test_heaters(page, view, server, board, page_errors):
     monitor = part(hotend, "heater-monitor").nth(1)
     part(monitor, "condition").select_option(label="too hot")
     wait_board(server, board, "heat.heaters[1].monitors[1].condition", "tooHigh")
-    expect(part(monitor, "limit")).to_have_value("290", timeout=PATIENCE_MS)
+    expect(part(monitor, "limit")).to_have_value("290")
     type_number(part(monitor, "limit"), 280)
     wait_board(server, board, "heat.heaters[1].monitors[1].limit", 280)
     part(monitor, "action").select_option(index=2)
@@ -87,12 +85,12 @@ def test_heaters(page, view, server, board, page_errors):
     type_number(part(hotend, "tune"), 200)
     wait_text(page.locator(".modal.in"), "E0, 200 °C")
     confirm(page)
-    expect(part(hotend, "is-tuning")).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(hotend, "is-tuning")).to_be_visible()
     wait_text(part(view, "heaters"), "E0 tuning")
     wait_text(part(heaters, "tuning-said"), "starting phase")
     wait_text(part(heaters, "tuning-said"), "completed")
-    expect(part(hotend, "is-tuning")).to_be_hidden(timeout=PATIENCE_MS)
-    expect(part(hotend, "heater-model")).not_to_have_text(before, timeout=PATIENCE_MS)
+    expect(part(hotend, "is-tuning")).to_be_hidden()
+    expect(part(hotend, "heater-model")).not_to_have_text(before)
     assert own_errors(page_errors) == []
 
 
@@ -116,7 +114,7 @@ def test_outputs_variables_and_probe(page, view, server, board, page_errors):
         part(form, "variable-value").fill(text)
         part(form, "variable-value").press("Enter")
         wait_board(server, board, f"global.{name}", value)
-        expect(part(form, "variable-value")).to_have_value(text, timeout=PATIENCE_MS)
+        expect(part(form, "variable-value")).to_have_value(text)
 
     bed = unfold(view, "bed")
     type_number(part(bed, "probe-height"), 1.2)
@@ -177,7 +175,7 @@ def test_drivers_and_beeps(page, view, server, board, page_errors):
     assert page.evaluate("beeps") == []
     part(boards, "sound").click()
     board.board.execute("M300 S880 P30000", channel="http")
-    page.wait_for_function("beeps.length === 1", timeout=PATIENCE_MS)
+    page.wait_for_function("beeps.length === 1")
     assert page.evaluate("beeps") == [[880, 5]]
     part(boards, "sound").click()
     assert own_errors(page_errors) == []
@@ -186,11 +184,10 @@ def test_drivers_and_beeps(page, view, server, board, page_errors):
 def test_a_print_greys_what_it_forbids(page, view, board, server):
     for name in ("tuning", "heaters", "outputs", "places", "bed", "boards"):
         unfold(view, name)
-    expect(part(view, "tune").first).to_be_enabled(timeout=PATIENCE_MS)
+    expect(part(view, "tune").first).to_be_enabled()
     # a macro may have just ended
     page.wait_for_function(
         "OctoPrint.coreui.viewmodels.rrfModelViewModel.latest.state.status === 'idle'",
-        timeout=PATIENCE_MS,
     )
     page.evaluate(
         """() => {
@@ -216,7 +213,7 @@ def test_firmware_is_updated_after_two_questions(page, view, server, board, page
     part(part(boards, "board").last, "update").click()
     wait_text(page.locator(".modal.in"), "lies on the card")
     confirm(page)
-    expect(page.locator(".modal.in")).to_contain_text("Really", timeout=PATIENCE_MS)
+    expect(page.locator(".modal.in")).to_contain_text("Really")
     assert "M997 B20" not in helpers.commands(board)
     confirm(page)
     sent(server, board, "M997 B20")

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN, OPERATOR
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import SECONDS, both_hosts, own_errors, part, wait_text
@@ -24,7 +24,7 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     assert helpers.status(server)["first_run"] is True
     open_octoprint(own_page, server, ADMIN)
     wizard = own_page.locator("#rrfmodel_wizard_dialog")
-    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard).to_be_visible()
     expect(part(wizard, "needed")).to_have_count(4)
     differences = {row["field"]: row["wanted"] for row in setup(server)["profile"]}
     assert differences != {}
@@ -33,7 +33,7 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     expect(part(wizard, "needed").first).to_be_hidden()
     expect(wizard.locator(".btn-primary")).to_have_count(1)
     wizard.locator(".btn-primary").click()
-    expect(part(wizard, "wizard-is-set")).to_be_visible(timeout=30_000)
+    expect(part(wizard, "wizard-is-set")).to_be_visible()
     expect(wizard.locator(".btn-primary")).to_be_hidden()
     assert {row["fulfilled"] for row in setup(server)["settings"]} == {True}
     assert setup(server)["profile"] == []
@@ -41,8 +41,8 @@ def test_wizard_sets_both_and_is_seen_once(own_page, server, page_errors):
     assert after["heatedChamber"] is True
     assert after["volume"]["width"] == differences["volume.width"]
     # OctoPrint goes by it from the next connection on
-    part(wizard, "reconnect").click(timeout=30_000)
-    expect(part(wizard, "needs-reconnect")).to_be_hidden(timeout=45_000)
+    part(wizard, "reconnect").click()
+    expect(part(wizard, "needs-reconnect")).to_be_hidden()
     server.wait_for(lambda: helpers.status(server)["ready"], SECONDS, "the machine")
     codes = {warning["code"] for warning in helpers.status(server)["warnings"]}
     assert not codes & {"settings_reconnect", "profile_reconnect"}
@@ -103,7 +103,7 @@ def test_settings_page(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
+    part(pane, "needed").first.wait_for()
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
     expect(part(pane, "difference")).to_have_count(len(setup(server)["profile"]))
@@ -117,7 +117,7 @@ def test_what_was_unticked_stays_so(own_page, server):
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
     ticks = pane.locator("[data-test=difference] input")
-    ticks.first.wait_for(timeout=PATIENCE_MS)
+    ticks.first.wait_for()
     ticks.first.uncheck()
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").first, "as needed")
@@ -131,12 +131,12 @@ def test_settings_page_that_is_open_when_the_machine_comes(own_page, server, boa
     open_octoprint(own_page, server, ADMIN)
     own_page.evaluate(SHOW)
     pane = own_page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
+    part(pane, "needed").first.wait_for()
     expect(part(pane, "difference")).to_have_count(0)
     helpers.connect(server, board, SECONDS)
-    expect(part(pane, "difference")).not_to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(pane, "difference")).not_to_have_count(0)
     helpers.disconnect(server)
-    expect(part(pane, "difference")).to_have_count(0, timeout=PATIENCE_MS)
+    expect(part(pane, "difference")).to_have_count(0)
     assert own_errors(page_errors) == []
 
 
@@ -152,7 +152,7 @@ def test_rows_of_the_sidebar_fold_away(own_page, server, without_axes):
     assert command(server, command="wizard_done").status_code == 204
     open_octoprint(own_page, server, ADMIN)
     sidebar = own_page.locator("[data-test=rrfmodel-sidebar]")
-    part(sidebar, "heater").first.wait_for(timeout=PATIENCE_MS)
+    part(sidebar, "heater").first.wait_for()
     # the whole model is there
     expect(part(sidebar, "sidebar-fan")).not_to_have_count(0)
     expect(part(sidebar, "axis")).to_have_count(0)

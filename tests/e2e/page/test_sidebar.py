@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import User
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import both_hosts, own_errors, part, show_terminal, wait_text
@@ -32,7 +32,7 @@ def sidebar(page):
 
 def shown(page):
     found = part(page, "rrfmodel-sidebar")
-    found.wait_for(state="visible", timeout=PATIENCE_MS)
+    found.wait_for(state="visible")
     return found
 
 
@@ -57,7 +57,7 @@ def test_follows_by_push_alone(page, sidebar, board):
     wait_text(part(sidebar, "heater").nth(0), "33")
     wait_text(part(sidebar, "heater").nth(0), "active")
     board.board.execute("G28", channel="http")
-    page.wait_for_selector("[data-test=axis].label-success", timeout=PATIENCE_MS)
+    page.wait_for_selector("[data-test=axis].label-success")
     board.board.execute("T0", channel="http")
     wait_text(part(sidebar, "tool"), "0")
     # the curves of the Machine view have a clock of their own, and so has what tells who looks
@@ -90,7 +90,7 @@ def test_heater_fault_is_told_and_taken_back(page, sidebar, board, page_errors):
     wait_text(page.locator(".ui-pnotify-text").last, "Heater E0 reports a fault")
     board.board.clear("heater_fault")
     board.board.execute("M562 P1", channel="http")
-    part(sidebar, "warning").wait_for(state="detached", timeout=PATIENCE_MS)
+    part(sidebar, "warning").wait_for(state="detached")
     assert own_errors(page_errors) == []
 
 

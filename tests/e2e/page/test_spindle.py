@@ -3,8 +3,6 @@
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import SECONDS, board_value, home, part, show_view, type_number, wait_board, wait_text
 
@@ -30,13 +28,13 @@ def _as_it_was(server, board):
 
 def test_speed_and_direction(view, server, board):
     spindle = part(view, "spindle")
-    expect(spindle).to_have_count(1, timeout=PATIENCE_MS)
+    expect(spindle).to_have_count(1)
     type_number(part(spindle, "rpm"), 8000)
     wait_board(server, board, "spindles[0].active", 8000)
     wait_board(server, board, "spindles[0].state", "forward")
     # one that somebody else has turned round goes on as it turns
     board.board.execute("M4 P0 S500", channel="http")
-    expect(part(spindle, "reverse")).to_be_checked(timeout=PATIENCE_MS)
+    expect(part(spindle, "reverse")).to_be_checked()
     type_number(part(spindle, "rpm"), 700)
     wait_board(server, board, "spindles[0].active", 700)
     assert board_value(board, "spindles[0].state") == "reverse"
@@ -48,7 +46,7 @@ def test_speed_and_direction(view, server, board):
     wait_board(server, board, "spindles[0].state", "reverse")
     part(spindle, "stop").click()
     wait_board(server, board, "spindles[0].state", "stopped")
-    expect(part(spindle, "reverse")).not_to_be_checked(timeout=PATIENCE_MS)
+    expect(part(spindle, "reverse")).not_to_be_checked()
     # and in the mode for it a laser is shown
     expect(part(view, "laser")).to_be_hidden()
     with board.board.lock:
@@ -96,12 +94,12 @@ def test_a_router_has_workplaces_and_nothing_of_a_printer(page, view, server, bo
     wait_board(server, board, "move.workplaceNumber", 1)
     part(view.locator("[data-test=axis-row][data-axis=X]"), "set-zero").click()
     wait_board(server, board, "move.axes[0].workplaceOffsets[1]", 40)
-    expect(place).to_have_text("0.00", timeout=PATIENCE_MS)
+    expect(place).to_have_text("0.00")
     part(view, "set-all-zero").click()
     wait_board(server, board, "move.axes[1].workplaceOffsets[1]", 30)
     board.board.execute("G10 L2 P2 X0 Y0 Z0", channel="http")
     board.board.execute("G59.3", channel="http")
-    expect(part(view, "workplace")).to_have_value("8", timeout=PATIENCE_MS)
+    expect(part(view, "workplace")).to_have_value("8")
     board.board.execute("G54", channel="http")
     helpers.wait_value(server, "move.workplaceNumber", 0, SECONDS)
 
@@ -126,5 +124,5 @@ DELTA = """() => {
 
 
 def test_towers_of_a_delta_home_together(page, view):
-    expect(part(view, "home")).to_have_count(3, timeout=PATIENCE_MS)
+    expect(part(view, "home")).to_have_count(3)
     assert page.evaluate(DELTA) == [3, 0]

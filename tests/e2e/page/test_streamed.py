@@ -21,8 +21,6 @@ MOVES = "".join(
 
 CARD = "0:/gcodes/on_the_card.gcode"
 
-MILLISECONDS = 30_000
-
 
 @pytest.fixture
 def view(page, server, board):
@@ -40,7 +38,7 @@ def view(page, server, board):
 
 
 def test_the_job_is_octoprints(page, view, server, board, page_errors):
-    expect(part(view, "job-name")).to_have_text(NAME, timeout=MILLISECONDS)
+    expect(part(view, "job-name")).to_have_text(NAME)
     expect(part(view, "no-file")).to_be_hidden()
     state = "Printing, sent by OctoPrint"
     for place in (
@@ -48,33 +46,31 @@ def test_the_job_is_octoprints(page, view, server, board, page_errors):
         page.locator("[data-test=strip-state]"),
         page.locator("#sidebar_plugin_rrfmodel [data-test=status]"),
     ):
-        expect(place).to_have_text(state, timeout=MILLISECONDS)
+        expect(place).to_have_text(state)
     percent = part(view, "job-percent")
-    expect(percent).to_have_text(re.compile(r"[1-9]"), timeout=MILLISECONDS)
+    expect(percent).to_have_text(re.compile(r"[1-9]"))
     # nothing of the card's last print, and nothing to begin
     for name in ("last", "card", "past"):
         expect(part(view, name)).to_have_count(0)
     for name in ("start", "simulate"):
         expect(part(view, name)).to_be_hidden()
     # layers by the file and by what was sent, which the board can't tell
-    expect(part(view, "layer")).to_have_text(
-        re.compile(rf"^[2-9] / {LAYERS}$"), timeout=MILLISECONDS
-    )
-    expect(part(view, "layers")).to_be_visible(timeout=MILLISECONDS)
+    expect(part(view, "layer")).to_have_text(re.compile(rf"^[2-9] / {LAYERS}$"))
+    expect(part(view, "layers")).to_be_visible()
     expect(part(view, "job-ends")).to_contain_text(re.compile("left|not known yet"))
     part(view, "pause").click()
     server.wait_state("Paused")
-    expect(part(view, "status")).to_have_text("Paused", timeout=MILLISECONDS)
-    expect(part(view, "pause")).to_be_disabled(timeout=MILLISECONDS)
+    expect(part(view, "status")).to_have_text("Paused")
+    expect(part(view, "pause")).to_be_disabled()
     part(view, "resume").click()
     server.wait_state("Printing")
-    expect(part(view, "cancel")).to_be_enabled(timeout=MILLISECONDS)
+    expect(part(view, "cancel")).to_be_enabled()
     part(view, "cancel").click()
     page.locator(CONFIRM).click()
     server.wait_state("Operational")
-    expect(part(view, "pause")).to_be_hidden(timeout=MILLISECONDS)
-    expect(part(view, "last-file")).to_have_text("on_the_card.gcode", timeout=MILLISECONDS)
-    expect(part(view, "past-name").first).to_have_text(NAME, timeout=MILLISECONDS)
+    expect(part(view, "pause")).to_be_hidden()
+    expect(part(view, "last-file")).to_have_text("on_the_card.gcode")
+    expect(part(view, "past-name").first).to_have_text(NAME)
     expect(part(view, "past-outcome").first).to_have_text("cancelled")
     # the card was left alone as long as the print lasted
     lines = helpers.commands(board)

@@ -5,8 +5,6 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.browser import PATIENCE_MS
-
 from .. import helpers
 from . import SECONDS, TOLD, both_hosts, own_errors, part, show_view
 
@@ -93,9 +91,9 @@ def test_nothing_moves_while_a_machine_homes_and_has_a_fault(page, strip, board)
     board.board.inject("heater_fault:1")
     expect(faults(strip)).to_contain_text("Heater E0 reports a fault")
     board.board.execute('M117 "A long message to the people in front"', channel="http")
-    expect(part(strip, "strip-state")).to_have_text("Idle", timeout=SECONDS * 1000)
+    expect(part(strip, "strip-state")).to_have_text("Idle")
     faults(strip).locator("[data-test=strip-fix]").click()
-    expect(faults(strip)).to_have_count(0, timeout=PATIENCE_MS)
+    expect(faults(strip)).to_have_count(0)
     assert len(places(page)) == 1
 
 
@@ -126,7 +124,7 @@ def test_who_sees_no_strip_is_told_by_a_notification(page, strip, server, board)
     page.locator('#tabs a[href="#term"]').evaluate("link => link.click()")
     board.board.inject("heater_fault:1")
     told = page.locator(TOLD).filter(has_text="Heater E0 reports a fault")
-    expect(told).to_have_count(1, timeout=PATIENCE_MS)
+    expect(told).to_have_count(1)
     # and in the sidebar, which stays
     aside = page.locator("#sidebar_plugin_rrfmodel [data-test=warning]")
     expect(aside).to_contain_text("Heater E0 reports a fault")
@@ -134,7 +132,7 @@ def test_who_sees_no_strip_is_told_by_a_notification(page, strip, server, board)
     expect(faults(strip)).to_contain_text("Heater E0 reports a fault")
     expect(told).to_have_count(0)
     part(strip, "strip-fix").first.click()
-    expect(faults(strip)).to_have_count(0, timeout=PATIENCE_MS)
+    expect(faults(strip)).to_have_count(0)
 
 
 def test_several_warnings_have_one_row_and_open_over_the_view(page, strip, board):
@@ -142,7 +140,7 @@ def test_several_warnings_have_one_row_and_open_over_the_view(page, strip, board
     board.board.inject("heater_fault:0")
     board.board.inject("heater_fault:1")
     alerts = faults(strip)
-    expect(alerts).to_have_count(2, timeout=PATIENCE_MS)
+    expect(alerts).to_have_count(2)
     expect(alerts.locator("visible=true")).to_have_count(1)
     before = page.evaluate(PLACE)
     more = part(strip, "strip-more")
@@ -153,7 +151,7 @@ def test_several_warnings_have_one_row_and_open_over_the_view(page, strip, board
     expect(alerts.locator("visible=true")).to_have_count(1)
     board.board.clear("heater_fault")
     board.board.execute("M562", channel="http")
-    expect(alerts).to_have_count(0, timeout=PATIENCE_MS)
+    expect(alerts).to_have_count(0)
 
 
 @both_hosts
@@ -162,7 +160,7 @@ def test_a_streamed_print_is_told_in_one_line(page, strip, server, page_errors):
     server.upload("streamed.gcode", STREAMED)
     server.select_and_print("streamed.gcode")
     job = part(strip, "strip-job")
-    expect(job).to_contain_text("streamed.gcode", timeout=PATIENCE_MS)
+    expect(job).to_contain_text("streamed.gcode")
     expect(job).to_contain_text("%")
     expect(part(strip, "strip-state")).to_contain_text("Printing")
     server.post("/api/job", json={"command": "cancel"})
@@ -177,30 +175,30 @@ def test_a_job_of_the_board_is_told_in_one_line(page, strip, board):
     board.board.card.write(f"0:/gcodes/{name}", "G4 S2\n" * 300)
     board.board.execute(f'M32 "{name}"', channel="http")
     job = part(strip, "strip-job")
-    expect(job).to_contain_text(name, timeout=PATIENCE_MS)
+    expect(job).to_contain_text(name)
     expect(job).to_contain_text(re.compile(r"\d %"))
     # whole, as long as nothing stands beside it
     assert page.locator(".rrfmodel-strip-name").evaluate(IS_WHOLE)
     board.board.execute("M25", channel="http")
-    expect(part(strip, "strip-state")).to_have_text("Paused", timeout=PATIENCE_MS)
+    expect(part(strip, "strip-state")).to_have_text("Paused")
     board.board.execute("M0", channel="http")
-    expect(job).to_have_text(re.compile(r"^\s*$"), timeout=SECONDS * 1000)
+    expect(job).to_have_text(re.compile(r"^\s*$"))
 
 
 @both_hosts
 def test_without_a_machine_it_says_so_and_connects(page, strip, server, board, page_errors):
     view = show_view(page, "machine")
     # a list of the card that is cut off is an error of the network in the browser's log
-    expect(part(view, "macro").first).to_be_visible(timeout=PATIENCE_MS)
+    expect(part(view, "macro").first).to_be_visible()
     before = page.evaluate(PLACE)
     helpers.disconnect(server)
-    expect(part(strip, "strip-state")).to_have_text("Not connected", timeout=PATIENCE_MS)
+    expect(part(strip, "strip-state")).to_have_text("Not connected")
     assert page.evaluate(PLACE) == before
     for view in ("chart", "console"):
         part(page, f"view-{view}").click()
         expect(part(strip, "no-machine")).to_be_visible()
     part(strip, "strip-fix").click()
-    expect(part(strip, "strip-state")).to_have_text("Idle", timeout=SECONDS * 1000)
+    expect(part(strip, "strip-state")).to_have_text("Idle")
     assert own_errors(page_errors) == []
 
 
@@ -208,15 +206,15 @@ def test_halted_it_has_the_restart(page, strip, server, board):
     show_view(page, "job")
     before = page.evaluate(PLACE)
     board.board.execute("M112", channel="http")
-    expect(part(strip, "strip-state")).to_have_text("Halted", timeout=PATIENCE_MS)
+    expect(part(strip, "strip-state")).to_have_text("Halted")
     fix = part(strip, "strip-fix").locator("visible=true")
-    expect(fix).to_have_text("Restart the machine", timeout=PATIENCE_MS)
+    expect(fix).to_have_text("Restart the machine")
     assert page.evaluate(PLACE) == before
     restarts_before = helpers.restarts(server)
     fix.click()
     server.wait_for(lambda: not board.board.is_halted, 60, "the restart")
     helpers.wait_restarted(server, restarts_before)
-    expect(part(strip, "strip-state")).to_have_text("Idle", timeout=PATIENCE_MS)
+    expect(part(strip, "strip-state")).to_have_text("Idle")
 
 
 def test_a_reader_sees_what_is_wrong_without_its_button(reader_page, board):

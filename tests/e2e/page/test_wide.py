@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, wait_usable
+from tests.support.browser import wait_usable
 
 from . import both_hosts, open_view, own_errors, part, show_view
 from .test_everyone import serious, show_filled
@@ -110,18 +110,18 @@ def test_its_address_and_what_is_remembered(own_page, server, page_errors):
     open_view(own_page, server, ADMIN, "job")
     assert not own_page.evaluate(IS_WIDE)
     own_page.evaluate("window.location.hash = '#tab_plugin_rrfmodel/machine?wide'")
-    part(own_page.locator("#rrfmodel_machine"), "machine").wait_for(timeout=PATIENCE_MS)
+    part(own_page.locator("#rrfmodel_machine"), "machine").wait_for()
     own_page.wait_for_function(IS_WIDE)
     for _again in range(2):
         own_page.reload()
         wait_usable(own_page)
-        part(own_page.locator("#rrfmodel_machine"), "machine").wait_for(timeout=PATIENCE_MS)
+        part(own_page.locator("#rrfmodel_machine"), "machine").wait_for()
         own_page.wait_for_function(IS_WIDE)
         # the second time without the word in its address
         own_page.evaluate("window.location.hash = '#tab_plugin_rrfmodel/machine'")
     switch(own_page).click()
     own_page.reload()
     wait_usable(own_page)
-    part(own_page.locator("#rrfmodel_machine"), "machine").wait_for(timeout=PATIENCE_MS)
+    part(own_page.locator("#rrfmodel_machine"), "machine").wait_for()
     assert not own_page.evaluate(IS_WIDE)
     assert own_errors(page_errors) == []

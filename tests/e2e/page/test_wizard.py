@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.basedir import ADMIN
-from tests.support.browser import PATIENCE_MS, open_octoprint
+from tests.support.browser import open_octoprint
 
 from .. import helpers
 from . import SECONDS, both_hosts, own_errors, part, wait_text
@@ -26,7 +26,7 @@ def open_settings(page, server):
     open_octoprint(page, server, ADMIN)
     page.evaluate(SHOW)
     pane = page.locator("#rrfmodel_setup")
-    part(pane, "needed").first.wait_for(timeout=PATIENCE_MS)
+    part(pane, "needed").first.wait_for()
     return pane
 
 
@@ -54,7 +54,7 @@ def test_all_is_true_or_false(server, wrong):
 def test_the_wizard_by_keyboard(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard).to_be_visible()
     expect(wizard.locator("h4")).to_be_focused()
     own_page.keyboard.press("Tab")
     expect(part(wizard, "wizard-setup")).to_be_focused()
@@ -67,21 +67,21 @@ def test_the_wizard_by_keyboard(own_page, server, page_errors):
 def test_who_wants_it_later_is_asked_again(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard).to_be_visible()
     part(wizard, "wizard-later").click()
     expect(wizard).to_be_hidden()
     helpers.wait_polls(server, 2)
     expect(wizard).to_be_hidden()
     assert helpers.status(server)["first_run"] is True
     open_octoprint(own_page, server, ADMIN)
-    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard_of(own_page)).to_be_visible()
     assert own_errors(page_errors) == []
 
 
 def test_who_declines_is_not_asked_again(own_page, server, page_errors):
     open_octoprint(own_page, server, ADMIN)
     wizard = wizard_of(own_page)
-    expect(wizard).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard).to_be_visible()
     part(wizard, "wizard-never").click()
     expect(wizard).to_be_hidden()
     server.wait_for(lambda: not helpers.status(server)["first_run"], 45, "the end of the first run")
@@ -96,7 +96,7 @@ def test_the_wizard_comes_with_the_first_machine(own_page, server, board):
     open_octoprint(own_page, server, ADMIN)
     expect(wizard_of(own_page)).to_be_hidden()
     helpers.connect(server, board, SECONDS)
-    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard_of(own_page)).to_be_visible()
 
 
 @both_hosts
@@ -104,13 +104,11 @@ def test_the_wizard_waits_for_another_dialog(own_page, server, board):
     helpers.disconnect(server)
     pane = open_settings(own_page, server)
     helpers.connect(server, board, SECONDS)
-    own_page.wait_for_function(
-        "OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run", timeout=PATIENCE_MS
-    )
+    own_page.wait_for_function("OctoPrint.coreui.viewmodels.rrfModelViewModel.status().first_run")
     expect(pane).to_be_visible()
     expect(wizard_of(own_page)).to_be_hidden()
     own_page.evaluate("OctoPrint.coreui.viewmodels.settingsViewModel.hide()")
-    expect(wizard_of(own_page)).to_be_visible(timeout=PATIENCE_MS)
+    expect(wizard_of(own_page)).to_be_visible()
 
 
 def test_the_wizard_stays_away_where_nothing_is_to_do(own_page, server):
@@ -132,7 +130,7 @@ def test_settings_are_set_and_taken_back(own_page, server, page_errors):
     part(pane, "set-needed").click()
     wait_text(part(pane, "needed-state").last, "as needed")
     # and that it isn't in effect yet is said there and in the sidebar
-    expect(part(pane, "needs-reconnect")).to_be_visible(timeout=30_000)
+    expect(part(pane, "needs-reconnect")).to_be_visible()
     told = [warning["code"] for warning in helpers.status(server)["warnings"]]
     assert "settings_reconnect" in told
     part(pane, "write-profile").click()

@@ -8,10 +8,9 @@ from playwright.sync_api import expect
 from octoprint_rrfmodel.simulator.faults import FAULTS
 from octoprint_rrfmodel.simulator.firmware import VERSIONS
 from octoprint_rrfmodel.simulator.machines import MACHINES
-from tests.support.browser import PATIENCE_MS
 
 from .. import helpers
-from . import SECONDS, both_hosts, own_errors, part, show_view, wait_text
+from . import both_hosts, own_errors, part, show_view, wait_text
 from .wizard import SHOW
 
 BOARD = {"machine": "corexy"}
@@ -60,7 +59,7 @@ def pane(page):
     """The plugin's settings, with all that is folded open."""
     page.evaluate(SHOW)
     found = page.locator("#settings_plugin_rrfmodel")
-    part(found, "needed").first.wait_for(timeout=PATIENCE_MS)
+    part(found, "needed").first.wait_for()
     found.evaluate(
         "(pane) => pane.querySelectorAll('details').forEach((each) => (each.open = true))"
     )
@@ -176,12 +175,12 @@ def test_the_chip_tells_a_fault(page, board):
     expect(chip).not_to_have_attribute("data-state", "fault")
     board.board.inject("heater_fault:1")
     try:
-        expect(chip).to_have_attribute("data-state", "fault", timeout=SECONDS * 1000)
+        expect(chip).to_have_attribute("data-state", "fault")
         # and which, to who points at it
         expect(chip).to_have_attribute("title", re.compile("fault"))
     finally:
         board.board.clear("heater_fault")
-    expect(chip).not_to_have_attribute("data-state", "fault", timeout=SECONDS * 1000)
+    expect(chip).not_to_have_attribute("data-state", "fault")
 
 
 def test_without_the_chip(page, server):

@@ -6,7 +6,6 @@ from playwright.sync_api import expect
 from octoprint_rrfmodel.host.plugin_settings import DEFAULTS
 from tests.support.basedir import ADMIN, OPERATOR
 from tests.support.browser import open_octoprint
-from tests.support.waiting import within
 
 from .. import helpers
 
@@ -49,15 +48,15 @@ def test_each_row_has_a_switch_that_is_on(server, group):
 
 def test_settings(server, board, page, page_errors):
     open_octoprint(page, server, ADMIN)
-    page.locator("[data-test=advice]").first.wait_for(timeout=within(30_000))
+    page.locator("[data-test=advice]").first.wait_for()
     expect(page.locator("[data-test=advice]")).to_have_count(len(warnings(server)))
     # advice pops up nowhere
     assert page.locator(".ui-pnotify-text", has_text="upper case").count() == 0
     page.locator("[data-test=fix]").click()
     # what OctoPrint reads when it connects is left
     reconnect = page.locator("[data-test=advice]", has_text="takes effect at the next connection")
-    reconnect.wait_for(timeout=within(15_000))
-    expect(page.locator("[data-test=advice]")).to_have_count(1, timeout=within(15_000))
+    reconnect.wait_for()
+    expect(page.locator("[data-test=advice]")).to_have_count(1)
     assert warnings(server) == ["settings_reconnect"]
     assert page_errors == []
     server.post("/api/plugin/rrfmodel", json={"command": "restore_settings"})
@@ -65,7 +64,7 @@ def test_settings(server, board, page, page_errors):
 
 def test_only_for_those_who_may(server, board, page):
     open_octoprint(page, server, OPERATOR)
-    page.locator("[data-test=advice]").first.wait_for(timeout=within(30_000))
+    page.locator("[data-test=advice]").first.wait_for()
     assert page.locator("[data-test=fix]").count() == 0
 
 
@@ -74,7 +73,7 @@ def test_restart(server, board, page, button):
     open_octoprint(page, server, OPERATOR)
     server.post("/api/printer/command", json={"command": "M112"})
     server.wait_disconnected()
-    page.locator(button).click(timeout=within(20_000))
+    page.locator(button).click()
     server.wait_for(lambda: not board.board.is_halted, 20, "the restart")
     server.wait_state("Operational", 30)
-    expect(page.locator("[data-test=warning]")).to_have_count(0, timeout=within(20_000))
+    expect(page.locator("[data-test=warning]")).to_have_count(0)
