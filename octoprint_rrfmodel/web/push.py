@@ -17,34 +17,39 @@ from ..link.status import worth_telling
 
 SHORTEST_SECONDS = 0.5
 
+GATHERED_SECONDS = 0.25
+"""So long a change waits for the answer that is on its way: what belongs together comes together."""
+
 
 class ModelPush:
     """Tells the pages; runs on the worker thread.
 
-    ``pages`` reach them. ``model()`` is the snapshot, ``status()`` the plugin's state. While they
-    are behind it only goes on collecting, and while there are none it forgets.
+    ``pages`` reach them. ``model()`` is the snapshot, ``status()`` the plugin's state, ``asked()``
+    is true while the board is to answer. While pages are behind it only goes on collecting, and
+    while there are none it forgets.
     """
 
-    def __init__(self, pages, model, status, *, clock):
+    def __init__(self, pages, model, status, *, asked, clock):
         self._pages = pages
         self._send = pages.tell
         self._model = model
         self._status = status
+        self._asked = asked
         self._clock = clock
         self._changed = set()
         self._forgotten = False
         self._told = None
-        self._looked_at = self._sent_at = 0.0
+        self._looked_at = self._sent_at = self._changed_at = 0.0
 
     ##~~ a listener
 
     def replied(self, taken, asked_at):
         """Note top-level keys that changed."""
-        self._changed.update(taken.changes)
+        self._note(taken.changes)
 
     def warmed(self, warmed):
         """Note temperatures that a line has told, also those that are as before: they are fresh."""
-        self._changed.update(warmed.changes)
+        self._note(warmed.changes)
         self._told = None
 
     def reset(self):
@@ -56,12 +61,20 @@ class ModelPush:
         self._changed.clear()
         self._forgotten = True
 
+    def _note(self, keys):
+        if not self._changed:
+            self._changed_at = self._clock()
+        self._changed.update(keys)
+
     def tick(self):
         """Send what is due; return the seconds until something may be."""
         now = self._clock()
         # what has changed is told at once behind a pause, the state is looked at again and again
         is_news = self._changed or self._forgotten
         due = (self._sent_at if is_news else self._looked_at) + SHORTEST_SECONDS - now
+        if self._changed and self._asked():
+            # a live reply tells which keys are to be asked for, and is followed by them
+            due = max(due, self._changed_at + GATHERED_SECONDS - now)
         if due > 0:
             return due
         if not self._pages.are_there():

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import octoprint.filemanager  # noqa: F401, OctoPrint 2.0 can't be imported from any side
 
-from octoprint_rrfmodel.web.push import SHORTEST_SECONDS, ModelPush
+from octoprint_rrfmodel.web.push import GATHERED_SECONDS, SHORTEST_SECONDS, ModelPush
 
 
 class Rig:
@@ -15,9 +15,14 @@ class Rig:
         self.tell = self.told.append
         self.now = 100.0
         self.is_there = True
+        self.asked = None
         status = {"revision": 1, "ready": True}
         self.push = ModelPush(
-            self, lambda: {"heat": 1, "move": 2}, lambda: status, clock=lambda: self.now
+            self,
+            lambda: {"heat": 1, "move": 2},
+            lambda: status,
+            asked=lambda: self.asked,
+            clock=lambda: self.now,
         )
         self.pass_time(SHORTEST_SECONDS)
         self.told.clear()
@@ -47,6 +52,26 @@ def test_a_change_is_told_at_once_behind_a_pause():
     rig.change("move")
     assert rig.pass_time(SHORTEST_SECONDS / 2) == [["heat"]]
     assert rig.pass_time(SHORTEST_SECONDS / 2) == [["heat"], ["heat", "move"]]
+
+
+def test_what_is_asked_for_comes_with_what_it_was_asked_after():
+    rig = Rig()
+    rig.pass_time(SHORTEST_SECONDS)
+    rig.asked = 'M409 K"move"'
+    rig.change("heat")
+    assert rig.pass_time(0.01) == []
+    rig.change("move")
+    rig.asked = None
+    assert rig.pass_time(0.01) == [["heat", "move"]]
+
+
+def test_an_answer_that_does_not_come_holds_no_change_back():
+    rig = Rig()
+    rig.pass_time(SHORTEST_SECONDS)
+    rig.asked = 'M409 K"move"'
+    rig.change("heat")
+    assert rig.pass_time(GATHERED_SECONDS - 0.01) == []
+    assert rig.pass_time(0.01) == [["heat"]]
 
 
 def test_what_changed_while_nobody_was_there_is_not_told():
