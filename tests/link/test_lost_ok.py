@@ -10,6 +10,7 @@ pytest.importorskip("octoprint")
 from octoprint.util import CountedEvent
 
 from octoprint_rrfmodel.link.serial.lost_ok import SILENT_SECONDS
+from octoprint_rrfmodel.link.serial.patience import STILL_BUSY, Patience
 from octoprint_rrfmodel.link.serial.received import ReceivedLines
 from octoprint_rrfmodel.link.serial.sent import SentCommands
 from octoprint_rrfmodel.link.serial.serial_link import SerialLink
@@ -27,9 +28,11 @@ COST_SECONDS = 6
 class Rig:
     """OctoPrint's counting of acknowledgements, the board as a queue of lines, and a clock."""
 
-    def __init__(self, has_heat=True):
+    def __init__(self, has_heat=True, minutes=60):
         self.now = 100.0
         self.has_heat = has_heat
+        self.is_held = False
+        """Whether the board waits for a person."""
         self.wire = []
         """What was sent and isn't answered yet."""
         self.sent = []
@@ -49,7 +52,7 @@ class Rig:
             card,
             lambda *note: None,
             guards=lambda error: False,
-            patience=SimpleNamespace(feed=lambda comm: ""),
+            patience=Patience(self.link, lambda: minutes, lambda: self.is_held),
             refusals=SimpleNamespace(look=lambda comm, line: None),
         )
         self._sent = SentCommands(
@@ -106,6 +109,57 @@ def test_a_lost_ok_costs_little(has_heat, question):
     assert rig.wire == [question]
     rig.answer()
     assert rig.may_send
+
+
+def heard_in_silence(rig):
+    """Return what OctoPrint is told when reading has timed out."""
+    return rig.received.on_received(rig.comm, "")
+
+
+@pytest.mark.parametrize("long", ["G32", 'M98 P"a.g"', "T1", "G4 S10"])
+def test_behind_a_command_that_takes_long_it_is_asked_when_patience_is_over(long):
+    rig = Rig(minutes=2)
+    rig.send(long)
+    rig.answer(is_lost=True)
+    rig.wait(119)
+    assert heard_in_silence(rig) == STILL_BUSY
+    assert rig.wire == []
+    rig.wait(2)
+    # from here on OctoPrint hangs up soon
+    assert heard_in_silence(rig) == ""
+    rig.wait(1)
+    assert rig.wire == ["M105"]
+    rig.answer()
+    assert rig.may_send
+    # the next one has all the time again
+    rig.send("G32")
+    rig.wait(COST_SECONDS)
+    assert heard_in_silence(rig) == STILL_BUSY
+    assert rig.wire == ["G32"]
+
+
+def test_a_macro_that_takes_longer_than_patience_earns_no_ok_too_many():
+    rig = Rig(minutes=1)
+    rig.send("G32")
+    rig.wait(61)
+    assert heard_in_silence(rig) == ""
+    rig.wait(1)
+    assert rig.wire == ["G32", "M105"]
+    rig.answer()
+    assert not rig.may_send
+    rig.answer()
+    rig.send("G1 X2")
+    assert not rig.may_send
+
+
+def test_nobody_is_asked_while_a_person_is_waited_for():
+    rig = Rig(minutes=1)
+    rig.is_held = True
+    rig.send("G32")
+    rig.wait(300)
+    assert heard_in_silence(rig) == STILL_BUSY
+    rig.wait(COST_SECONDS)
+    assert rig.wire == ["G32"]
 
 
 @pytest.mark.parametrize("awaited", ["M105", "M114", "G1 X1", 'M409 K"heat"', "M117 hi"])

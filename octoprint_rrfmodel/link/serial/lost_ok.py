@@ -6,6 +6,9 @@ seconds (3.5 GCodes.cpp:4865), so that silence behind a plain line means loss. T
 asked something, past OctoPrint's queue: the question's own ``ok`` is the one that OctoPrint waits
 for. If the other one comes after all it comes first, and ``extra_ok`` takes it out. So a question
 too many does no harm, whatever the board is busy with.
+
+Behind a command that may take long nothing tells a loss from the command itself. There the board
+is asked when patience is over (``patience``): OctoPrint would hang up next.
 """
 
 from typing import NamedTuple
@@ -56,13 +59,11 @@ class LostOk:
         if since != self._since:
             self._since, self._asked, self._asked_at = since, 0, 0.0
         is_silent = now - max(since, link.heard_at, self._asked_at) >= SILENT_SECONDS
-        # what may take long is waited for (``patience``)
-        if (
-            is_silent
-            and not link.awaits_long
-            and _is_plain(awaited, link.awaited_command)
-            and _waits(comm)
-        ):
+        if link.awaits_long:
+            may_be_lost = link.given_up_on == since and awaited not in NEVER_ACKNOWLEDGED
+        else:
+            may_be_lost = _is_plain(awaited, link.awaited_command)
+        if is_silent and may_be_lost and _waits(comm):
             self._ask(comm, awaited, now)
         return TICK_SECONDS
 

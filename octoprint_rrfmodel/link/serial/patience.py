@@ -46,6 +46,7 @@ class Patience:
             return ""
         limit = self._minutes() * MINUTE if link.awaits_long else LONGEST_MOVE_SECONDS
         if limit and link.silent_for() > limit and not self._is_held():
-            # OctoPrint's own patience decides from here on
+            # OctoPrint's own patience decides from here on; the board is asked first (``lost_ok``)
+            link.given_up_on = link.awaited_since
             return ""
         return STILL_BUSY

@@ -75,6 +75,8 @@ class SerialLink(Link):
         self.awaited_since = 0.0
         self.awaits_long = False
         """Whether the awaited command may take long without a word."""
+        self.given_up_on = None
+        """``awaited_since`` of a command for which patience is over."""
         self.heard_at = 0.0
         """When the board last said something, or a command last went out to it."""
         self.asks_of_a_file = False

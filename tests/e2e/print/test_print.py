@@ -27,12 +27,15 @@ SHORT_TIMEOUTS = {
     }
 }
 
+SILENCE = {"rrfmodel": {"silence_minutes": 0.2}}
+"""An ok that is lost behind a macro isn't looked for before OctoPrint's patience is asked."""
+
 PLUGIN_LINE = re.compile(r"M409|M105$")
 
 
 @pytest.fixture(scope="module")
 def server(module_server_factory):
-    return module_server_factory(serial=SHORT_TIMEOUTS)
+    return module_server_factory(serial=SHORT_TIMEOUTS, plugins_config=SILENCE)
 
 
 def distinct_moves(count, first=0):
@@ -136,6 +139,24 @@ def test_print(server, board_factory, fault):
         board.board.clear(fault.partition(":")[0])
     server.wait_for(lambda: not helpers.status(server)["stale"], 20, "fresh data")
     helpers.wait_equal(server, board, 10)
+
+
+def test_lost_ok_of_a_macro_costs_the_minutes_of_the_setting(server, board_factory):
+    board = board_factory(speed=10)
+    helpers.connect(server, board)
+    server.commands("G28")
+    helpers.wait_value(server, "move.axes[].homed", [True] * 3, 30)
+    lines = distinct_moves(60)
+    lines.insert(30, "G32")
+    start = len(board.board.received())
+    server.upload("macro.gcode", "\n".join(lines) + "\n")
+    with PushListener(server, ADMIN) as push:
+        server.select_and_print("macro.gcode")
+        server.wait_for(lambda: "G32" in helpers.commands(board)[start:], 30, "the macro")
+        board.board.inject("lost_ok:once")
+        server.wait_for(lambda: push.events("PrintDone"), PRINT_SECONDS, "the end of the print")
+        assert push.events("Error") == push.events("Disconnected") == []
+    assert [command for command in helpers.commands(board)[start:] if command in lines] == lines
 
 
 SURVIVED = (
