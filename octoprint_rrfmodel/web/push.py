@@ -18,7 +18,7 @@ from ..link.status import worth_telling
 SHORTEST_SECONDS = 0.5
 
 GATHERED_SECONDS = 0.25
-"""So long a change waits for the answer that is on its way: what belongs together comes together."""
+"""So long a change waits for an answer that is on its way: what belongs together comes so."""
 
 
 class ModelPush:

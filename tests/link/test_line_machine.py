@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from octoprint_rrfmodel.link.poll_slot import TooManyQueries
+from octoprint_rrfmodel.rrf.follow.freshness import LIVE
 
 from .plugin_line import PluginLine
 
@@ -62,8 +63,8 @@ TURNS = st.lists(
 
 CALM_SECONDS = 150
 
-SETTLED_SECONDS = 16
-"""Time for what is rarely asked for."""
+SETTLED_SECONDS = 16 + max(each.unseen for each in LIVE)
+"""Time for what is rarely asked for, on a line that was found slow while nobody looks."""
 
 SLOW_TURN = 0.2
 
