@@ -150,8 +150,8 @@ class Assembly:
         looks = {"audience": self._audience, "streamed": self.prints.layers}
         self.history = MachineHistory(model, self._poller.is_stale, **looks)
         self.console = Console(self.moonraker.store, self._pages, self._clock)
-        asked = self._poller.asked
-        self._push = ModelPush(self._pages, model, self.status, asked=asked, clock=self._clock)
+        follows = {"follower": self._follower, "clock": self._clock}
+        self._push = ModelPush(self._pages, model, self.status, **follows)
         sent = self.moonraker.store.sent
         self.networks = tuple(
             Network(self._links, host, known=known, sent=sent, **notes) for _ in range(IS_2)

@@ -15,13 +15,13 @@ class Rig:
         self.tell = self.told.append
         self.now = 100.0
         self.is_there = True
-        self.asked = None
-        status = {"revision": 1, "ready": True}
+        self.behind = False
+        self.status = {"revision": 1, "ready": True}
         self.push = ModelPush(
             self,
             lambda: {"heat": 1, "move": 2},
-            lambda: status,
-            asked=lambda: self.asked,
+            lambda: dict(self.status),
+            follower=self,
             clock=lambda: self.now,
         )
         self.pass_time(SHORTEST_SECONDS)
@@ -35,6 +35,9 @@ class Rig:
 
     def change(self, *keys):
         self.push.replied(SimpleNamespace(changes=dict.fromkeys(keys, True)), self.now)
+
+    def warm(self, *keys):
+        self.push.warmed(SimpleNamespace(changes=dict.fromkeys(keys, True)))
 
     def pass_time(self, seconds):
         self.now += seconds
@@ -54,21 +57,43 @@ def test_a_change_is_told_at_once_behind_a_pause():
     assert rig.pass_time(SHORTEST_SECONDS / 2) == [["heat"], ["heat", "move"]]
 
 
-def test_what_is_asked_for_comes_with_what_it_was_asked_after():
+def test_a_key_comes_with_the_reply_that_said_it_has_changed():
     rig = Rig()
     rig.pass_time(SHORTEST_SECONDS)
-    rig.asked = 'M409 K"move"'
+    rig.behind = True
     rig.change("heat")
     assert rig.pass_time(0.01) == []
     rig.change("move")
-    rig.asked = None
+    rig.behind = False
     assert rig.pass_time(0.01) == [["heat", "move"]]
 
 
-def test_an_answer_that_does_not_come_holds_no_change_back():
+def test_temperatures_of_a_line_hold_back_nothing_that_has_changed():
     rig = Rig()
     rig.pass_time(SHORTEST_SECONDS)
-    rig.asked = 'M409 K"move"'
+    rig.warm("heat")
+    assert rig.pass_time(0.1) == []
+    rig.change("move")
+    assert rig.pass_time(0.01) == [["heat", "move"]]
+    rig.warm("heat")
+    assert rig.pass_time(SHORTEST_SECONDS - 0.01) == [["heat", "move"]]
+    assert rig.pass_time(0.01) == [["heat", "move"], ["heat"]]
+
+
+def test_a_state_holds_back_nothing_that_has_changed():
+    rig = Rig()
+    rig.pass_time(SHORTEST_SECONDS)
+    rig.status["ready"] = False
+    rig.pass_time(SHORTEST_SECONDS)
+    assert [message["type"] for message in rig.told] == ["status"]
+    rig.change("move")
+    assert rig.pass_time(0.01) == [[], ["move"]]
+
+
+def test_a_key_that_does_not_come_holds_no_change_back():
+    rig = Rig()
+    rig.pass_time(SHORTEST_SECONDS)
+    rig.behind = True
     rig.change("heat")
     assert rig.pass_time(GATHERED_SECONDS - 0.01) == []
     assert rig.pass_time(0.01) == [["heat"]]
