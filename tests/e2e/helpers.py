@@ -278,12 +278,27 @@ def assert_status_request_in_front(sent, command):
     assert sent[place - 1] == "M105", sent[place - 5 : place + 1]
 
 
-def assert_quiet(board, command, following):
-    """Nothing but a status request came in while a command ran, and one was right before it."""
-    sent = commands(board)
-    assert_status_request_in_front(sent, command)
-    between = sent[index_of(sent, command) + 1 : index_of(sent, following)]
-    assert [found for found in between if is_poll(found)] == []
+def sent_until_acknowledged(server, command):
+    """Return what went out behind a command until its ``ok`` was read, G-code alone."""
+    _, found, behind = server.serial_log().rpartition(f" {command}*")
+    # OctoPrint numbers all lines in a print, and otherwise none
+    if not found:
+        _, found, behind = server.serial_log().rpartition(f" {command}\n")
+    assert found, command
+    sent = []
+    for line in behind.splitlines()[1:]:
+        if re.search(r" - (?:Recv: |<<< )ok", line):
+            return sent
+        if match := re.search(r" - (?:Send: |>>> )(.*)", line):
+            sent.append(command_of(match[1]))
+    raise AssertionError(f"{command} is not acknowledged")
+
+
+def assert_quiet(server, board, command):
+    """The model wasn't asked for while a command ran, and the status right before it."""
+    assert_status_request_in_front(commands(board), command)
+    sent = sent_until_acknowledged(server, command)
+    assert [found for found in sent if is_poll(found)] == []
 
 
 def change(board):

@@ -1,6 +1,7 @@
 """An ok that is lost is found out soon, and one that was only late is none too many."""
 
 import random
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -150,6 +151,19 @@ def test_a_macro_that_takes_longer_than_patience_earns_no_ok_too_many():
     rig.answer()
     rig.send("G1 X2")
     assert not rig.may_send
+
+
+def test_octoprint_that_hangs_up_meanwhile_holds_nobody_up():
+    rig = Rig()
+    rig.send("G1 X1")
+    # OctoPrint does so on whatever thread it hangs up, and never gives it back
+    closing = threading.Thread(target=rig.comm._clear_to_send.acquire)
+    closing.start()
+    closing.join()
+    worker = threading.Thread(target=rig.wait, args=(COST_SECONDS,), daemon=True)
+    worker.start()
+    worker.join(10)
+    assert not worker.is_alive()
 
 
 def test_nobody_is_asked_while_a_person_is_waited_for():

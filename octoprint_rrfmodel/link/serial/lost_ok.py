@@ -91,7 +91,8 @@ def _is_plain(gcode, command):
 def _waits(comm):
     """Return whether OctoPrint sends nothing before an ``ok`` comes."""
     is_uploading = comm.isStreaming() or comm._manualStreaming
-    return comm.isOperational() and not is_uploading and comm._clear_to_send.blocked()
+    # not blocked(), which waits for a lock that OctoPrint takes for good when it hangs up
+    return comm.isOperational() and not is_uploading and not comm._clear_to_send.is_set()
 
 
 def _has_heat(comm):
