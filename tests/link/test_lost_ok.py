@@ -156,10 +156,8 @@ def test_a_macro_that_takes_longer_than_patience_earns_no_ok_too_many():
 def test_octoprint_that_hangs_up_meanwhile_holds_nobody_up():
     rig = Rig()
     rig.send("G1 X1")
-    # OctoPrint does so on whatever thread it hangs up, and never gives it back
-    closing = threading.Thread(target=rig.comm._clear_to_send.acquire)
-    closing.start()
-    closing.join()
+    # OctoPrint does so on the thread that hangs up, and never gives it back
+    rig.comm._clear_to_send.acquire()
     worker = threading.Thread(target=rig.wait, args=(COST_SECONDS,), daemon=True)
     worker.start()
     worker.join(10)
